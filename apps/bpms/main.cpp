@@ -1,0 +1,62 @@
+// The command line: a table of verbs, one error line, the exit code.
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <new>
+
+#include "apps/bpms/verb.h"
+#include "apps/bpms/verbs.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/nearest.h"
+
+namespace {
+
+using bpms::Cli;
+
+constexpr void (*verbs[])(Cli&) = {
+    bpms::add_check,
+};
+
+int parse_and_run(Cli& cli, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : cli.app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(verb->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
+    bpms::bad_input({}, "unknown verb {}{}", bpms::in_quotes(argv[1]), bpms::did_you_mean(argv[1], names));
+  try {
+    cli.app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return cli.app.exit(help);
+  } catch (const CLI::CallForVersion& v) {
+    return cli.app.exit(v);
+  } catch (const CLI::ParseError& error) {
+    bpms::bad_input({}, "{} (see bpms {}--help)", error.what(), argc > 1 && argv[1][0] != '-' ? std::string(argv[1]) + " " : "");
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bpms::catch_interrupts();
+  Cli cli;
+  cli.app.description("bpms: from measurements on plants to the radiance that a sensor would see");
+  cli.app.name("bpms");
+  cli.app.require_subcommand(1);
+  cli.app.set_version_flag("--version", bpms::version());
+  for (int i = 0; i < argc; ++i) cli.command += (i ? " " : "") + std::string(i ? argv[i] : "bpms");
+  try {
+    for (const auto add : verbs) add(cli);
+    return parse_and_run(cli, argc, argv);
+  } catch (const bpms::Error& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return bpms::exit_code(error.kind());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory\n");
+    return bpms::exit_code(bpms::ErrorKind::missing_resource);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: internal: {}\n", error.what());
+    return bpms::exit_code(bpms::ErrorKind::internal);
+  }
+}

@@ -1,0 +1,61 @@
+#include "apps/bpms/verb.h"
+
+#include <fmt/core.h>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+
+namespace bpms {
+
+CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary, const std::string& example,
+                   std::function<void()> run) {
+  CLI::App* verb = cli.app.add_subcommand(name, summary);
+  CommonOptions& common = cli.common;
+  verb->add_option("-o,--output", common.output, "output file");
+  verb->add_option("--report", common.report, "report of the run: FILE.json, or FILE.html to look at");
+  verb->add_option("--seed", common.seed, "seed of all random numbers (default 1)");
+  verb->add_option("--threads", common.threads, "threads (default: all cores)")->check(CLI::Range(0, 1024));
+  verb->add_flag("--quiet", common.quiet, "no progress and no notes");
+  verb->add_flag("--json", common.json, "the report on stdout as one JSON object");
+  verb->add_flag("--overwrite", common.overwrite, "replace existing outputs");
+  verb->footer("Example:\n  " + example);
+  verb->callback([&cli, run = std::move(run)] {
+    set_quiet(cli.common.quiet);
+    set_threads(cli.common.threads);
+    if (!cli.common.output.empty() && cli.common.output != "-") require_writable(cli.common.output, cli.common.overwrite);
+    if (!cli.common.report.empty()) require_writable(cli.common.report, cli.common.overwrite);
+    run();
+  });
+  return verb;
+}
+
+Provenance provenance(const Cli& cli, bool with_seed) {
+  Provenance out;
+  out.command = cli.command;
+  if (with_seed) out.seed = cli.common.seed;
+  return out;
+}
+
+const std::string& require_output(const Cli& cli) {
+  if (cli.common.output.empty()) throw Error(ErrorKind::bad_input, "no output file: give -o FILE");
+  return cli.common.output;
+}
+
+void deliver_report(const Cli& cli, const std::string& verb, Json report, const Provenance& provenance) {
+  Json out{{"report", verb}};
+  out.update(report);
+  out["provenance"] = provenance.json();
+  if (cli.common.json) fmt::print("{}\n", out.dump());
+  const std::string& path = cli.common.report;
+  if (path.empty()) return;
+  if (path.ends_with(".html")) {
+    const Json page{{"title", "bpms " + verb}, {"version", version()}, {"command", cli.command}, {"reports", {out}}};
+    write_file(path, html_page(page), cli.common.overwrite);
+  } else {
+    write_file(path, out.dump(1) + "\n", cli.common.overwrite);
+  }
+}
+
+}  // namespace bpms

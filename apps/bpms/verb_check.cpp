@@ -1,0 +1,57 @@
+#include <fmt/core.h>
+
+#include <array>
+#include <vector>
+
+#include "apps/bpms/file_kinds.h"
+#include "apps/bpms/verb.h"
+#include "apps/bpms/verbs.h"
+#include "core/error.h"
+#include "core/records.h"
+#include "core/text.h"
+
+namespace bpms {
+namespace {
+
+bool first_line_has(std::string_view head, std::string_view word) {
+  return head.substr(0, head.find('\n')).find(word) != std::string_view::npos;
+}
+
+const std::vector<FileKind>& kinds() {
+  static const std::vector<FileKind> table{
+      {"points.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "u_px"); },
+       [](const std::string& path) { return fmt::format("{} image points", read_image_points(path).size()); }},
+      {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
+       [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
+  };
+  return table;
+}
+
+void run(const Cli& cli, const std::vector<std::string>& files) {
+  Json results = Json::array();
+  for (const std::string& path : files) {
+    constexpr std::size_t head_size = 4096;
+    const std::string text = read_text(path);
+    const std::string_view head = std::string_view(text).substr(0, head_size);
+    const FileKind* found = nullptr;
+    for (const FileKind& kind : kinds()) {
+      if (found == nullptr && kind.recognise(path, head)) found = &kind;
+    }
+    if (found == nullptr) bad_input({path}, "not recognised as any kind of file that bpms reads");
+    const std::string summary = found->check(path);
+    results.push_back({{"file", path}, {"kind", found->name}, {"summary", summary}});
+    if (!cli.common.json) fmt::print("{}: {}: {}\n", path, found->name, summary);
+  }
+  deliver_report(cli, "check", {{"files", results}}, provenance(cli));
+}
+
+}  // namespace
+
+void add_check(Cli& cli) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App* verb = add_verb(cli, "check", "validate any file that bpms reads", "bpms check wheat.bpms scene.toml vectors.csv",
+                            [&cli, files] { run(cli, *files); });
+  verb->add_option("files", *files, "files of any kind")->required();
+}
+
+}  // namespace bpms
