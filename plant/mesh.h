@@ -1,0 +1,30 @@
+// A triangle mesh with what must not get lost on the way: organ, material, (U, V), normals.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bpms {
+
+struct Mesh {
+  std::vector<Eigen::Vector3f> positions_m;
+  std::vector<Eigen::Vector3f> normals;  // unit, per vertex: on a leaf, towards its upper face
+  std::vector<Eigen::Vector2f> uv;       // U along the length, V across
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> organ_of_triangle;  // index into organs
+  struct Organ {
+    int id = 0;
+    std::string label;     // "l3"
+    std::string kind;      // "leaf"
+    std::string material;
+    double length_m = 0;
+    double area_m2 = 0;    // one-sided for leaves, total surface for the rest
+  };
+  std::vector<Organ> organs;
+};
+
+double triangle_area_m2(const Mesh& mesh, std::size_t triangle);
+
+}  // namespace bpms
