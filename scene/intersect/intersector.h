@@ -1,0 +1,63 @@
+// Rays against a scene, on Embree, behind this one header. Periodic domains wrap: a ray that leaves a side re-enters on
+// the other until it hits, leaves the top (or bottom), or has wrapped `max_wraps` times.
+// Re-entrant: any number of threads may trace at once. Directions are unit vectors.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+
+#include "scene/scene.h"
+
+namespace bpms {
+
+// Names the surface element a ray starts on, so that it is not hit again at once.
+struct SurfaceId {
+  std::uint32_t instance = 0xffffffffu;
+  std::uint32_t geometry = 0xffffffffu;
+  std::uint32_t primitive = 0xffffffffu;
+};
+
+struct Ray {
+  Eigen::Vector3f origin;
+  Eigen::Vector3f direction;
+  float far = 1e30f;  // metres along the ray
+  SurfaceId from;
+};
+
+struct Hit {
+  float distance = 0;                // along the unwrapped ray
+  Eigen::Vector3f position;          // inside the domain cell when periodic
+  Eigen::Vector3f geometric_normal;  // unit, of the upper face
+  Eigen::Vector3f shading_normal;    // unit, same side; equals the geometric one for discs and plane
+  bool front = true;                 // the ray met the upper face
+  std::uint32_t material = 0;        // index into Scene::materials
+  std::uint32_t organ = 0xffffffffu; // index into the prototype's mesh organs
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  SurfaceId id;
+  bool ground = false;
+};
+
+enum class Escape { hit, top, bottom, wrap_limit };
+
+class Intersector {
+ public:
+  explicit Intersector(const Scene& scene);
+  ~Intersector();
+  Intersector(const Intersector&) = delete;
+  Intersector& operator=(const Intersector&) = delete;
+
+  Escape intersect(const Ray& ray, Hit& hit) const;
+  bool occluded(const Ray& ray) const;  // anything between 0 and far (opaque or not)
+
+  float top_m() const;     // highest point of the scene (geometry and ground)
+  float bottom_m() const;
+  Eigen::Vector2f cell_low_m() const;  // the domain cell, or the bounding box of an open scene
+  Eigen::Vector2f cell_high_m() const;
+  std::uint64_t memory_bytes() const;  // as Embree accounts for it
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace bpms

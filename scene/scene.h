@@ -1,0 +1,66 @@
+// The noun of the scene floor: geometry, instances and material names, ready to be traced.
+// What scene.toml says under domain, ground, prototypes and instances; metres, z up, x east, y north.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/toml.h"
+#include "plant/mesh.h"
+
+namespace bpms {
+
+struct Domain {
+  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  // centred at the origin; zero: not given
+  bool periodic = true;
+  bool azimuth_north_clockwise = true;  // false: east_counterclockwise
+};
+
+struct Disc {
+  Eigen::Vector3f centre_m;
+  float radius_m;
+  Eigen::Vector3f normal;  // unit; the upper (front) face looks this way
+};
+
+// A thing that is placed many times. Materials are indices into Scene::materials.
+struct Prototype {
+  std::string name;
+  std::vector<Disc> discs;
+  std::uint32_t disc_material = 0;
+  std::shared_ptr<const Mesh> mesh;                 // or null
+  std::vector<std::uint32_t> material_of_organ;     // of the mesh's organs
+};
+
+struct Instance {
+  std::uint32_t prototype = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double rotation = 0;  // about z, counter-clockwise from above
+  double scale = 1;
+};
+
+struct Ground {
+  double height_m = 0;
+  std::uint32_t material = 0;
+};
+
+struct Scene {
+  Domain domain;
+  std::vector<std::string> materials;  // names that geometry uses, in order of first use
+  std::vector<Prototype> prototypes;
+  std::vector<Instance> instances;
+  std::optional<Ground> ground;
+  std::vector<std::string> inputs;  // files it was read from, for the provenance
+  std::vector<std::string> notes;
+};
+
+// Reads the geometry part of a scene.toml; the caller reads the rest and then calls document.finish().
+Scene read_scene_geometry(const TomlDocument& document);
+
+// The azimuth of a horizontal direction and back, in the scene's convention.
+Eigen::Vector3d direction_from_angles(double zenith, double azimuth, const Domain& domain);
+
+}  // namespace bpms
