@@ -2,5 +2,7 @@
 #include "core/error.h"
 
 namespace bpms {
-std::string html_page(const Json&) { throw Error(ErrorKind::bad_input, "this build has no report page (workbench/)"); }
+std::string html_page(const Json&) {
+  throw Error(ErrorKind::bad_input, "this build has no report page (workbench/)");
+}
 }  // namespace bpms
