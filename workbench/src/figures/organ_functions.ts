@@ -15,7 +15,7 @@ const order = ["inclination", "azimuth", "twist", "width", "curvature"];
 
 function scaleAndUnit(name: string, unit: string | null): [number, string] {
   if (unit === "m" || (unit === null && name === "width")) return [1000, "mm"];
-  return [1, unit ?? "°"];
+  return [1, unit === null || unit === "deg" ? "°" : unit];
 }
 
 const times = (scale: number, v: readonly (number | null)[]): (number | null)[] => v.map((x) => (x === null ? null : x * scale));
@@ -58,7 +58,7 @@ export function functionPanels(r: Fit, names: Organs, s: Section): void {
     {
       height: 320 * grid.rows + 80,
       data,
-      layout: { ...grid.layout, annotations: grid.annotations, showlegend: true, legend: { orientation: "h", x: 0, y: grid.rows > 1 ? -0.1 : -0.2, yanchor: "top" } },
+      layout: { ...grid.layout, annotations: grid.annotations, showlegend: true },
     },
     "The fitted functions, a line for each organ with its band of ±1.96 σ; dots are measured values where the input has them. Click a name in the legend to hide an organ, double-click to see it alone.",
   );
@@ -107,10 +107,11 @@ export function midribs(r: Fit, names: Organs, s: Section): void {
   s.plot(
     "midribs",
     {
-      height: 460,
+      height: 480,
+      maxWidth: 760,
       data,
       layout: {
-        xaxis: { title: axisTitle("horizontal distance from the base (mm)"), constrain: "domain" },
+        xaxis: { title: axisTitle("horizontal distance from the base (mm)"), constrain: "domain", constraintoward: "left" },
         yaxis: { title: axisTitle("height above the base (mm)"), scaleanchor: "x", constrain: "domain" },
         showlegend: true,
       },

@@ -72,7 +72,6 @@ export function anglePanels(lines: Lines, columns = 2, barmode?: string): { heig
       shapes: marks.flatMap((m) => m.shapes),
       annotations: [...grid.annotations, ...marks.flatMap((m) => m.annotations)],
       showlegend: data.some((t) => t.showlegend === true),
-      legend: { orientation: "h", x: 0, y: -0.55 / (1.6 * grid.rows + 0.7), yanchor: "top" },
     },
   };
 }

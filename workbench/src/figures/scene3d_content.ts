@@ -26,6 +26,7 @@ export interface CurveSpec {
   label: string;
   colour: string;
   points: Point3[];
+  width?: number; // pixels
 }
 
 const unknownColour = "#9aa3ad";
@@ -86,17 +87,29 @@ function segments(positions: number[], colour: string, width: number): LineSegme
   return new LineSegments2(geometry, new LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: width }));
 }
 
-export function curveObject(c: CurveSpec, width = 3): THREE.Object3D | null {
+export function curveObject(c: CurveSpec): THREE.Object3D | null {
   if (c.points.length < 2) return null;
-  const object = segments(c.points.slice(1).flatMap((p, i) => [...(c.points[i] ?? p), ...p]), c.colour, width);
+  const object = segments(c.points.slice(1).flatMap((p, i) => [...(c.points[i] ?? p), ...p]), c.colour, c.width ?? 3);
   object.userData = { label: c.label };
   return object;
+}
+
+function disc(): THREE.Texture {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 32;
+  const context = canvas.getContext("2d");
+  if (context) {
+    context.fillStyle = "#ffffff";
+    context.arc(16, 16, 15, 0, 2 * Math.PI);
+    context.fill();
+  }
+  return new THREE.CanvasTexture(canvas);
 }
 
 export function dotObject(points: readonly Point3[], colour: string, size: number): THREE.Object3D {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(points.flat(), 3));
-  return new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, size, sizeAttenuation: false }));
+  return new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, size, sizeAttenuation: false, map: disc(), alphaTest: 0.5 }));
 }
 
 function textSprite(text: string, height: number): THREE.Sprite {
@@ -125,9 +138,9 @@ export function lengthLabel(metres: number): string {
 }
 
 // A square grid on the ground under the box, one cell of it marked as scale bar.
-export function ground(box: THREE.Box3): { object: THREE.Object3D; cell: number } {
+export function ground(box: THREE.Box3): { object: THREE.Object3D; corners: THREE.Vector3[] } {
   const size = box.getSize(new THREE.Vector3());
-  const extent = Math.max(size.x, size.y, 0.35 * size.z, 1e-6) * 1.15;
+  const extent = Math.max(size.x, size.y, 0.3 * size.z, 1e-6);
   const cell = niceBelow(extent / 4);
   const centre = box.getCenter(new THREE.Vector3());
   const half = Math.ceil(extent / 2 / cell);
@@ -148,8 +161,10 @@ export function ground(box: THREE.Box3): { object: THREE.Object3D; cell: number 
   const bar = [x0 - reach, y, z, x0 - reach + cell, y, z];
   const tick = 0.07 * cell;
   const ends = [0, cell].flatMap((d) => [x0 - reach + d, y - tick, z, x0 - reach + d, y + tick, z]);
-  const text = textSprite(lengthLabel(cell), 0.3 * cell);
-  text.position.set(x0 - reach + cell / 2, y - 0.3 * cell, z);
+  const text = textSprite(lengthLabel(cell), 0.045 * extent);
+  text.position.set(x0 - reach + cell / 2, y - 0.035 * extent, z);
   object.add(shade, segments(lines, "#c9ced4", 1), segments([...bar, ...ends], ink, 2.5), text);
-  return { object, cell };
+  const corners = [-1, 1].flatMap((sx) => [-1, 1].map((sy) => new THREE.Vector3(x0 + sx * reach, y0 + sy * reach, z)));
+  corners.push(new THREE.Vector3(x0 - reach, y - 0.06 * extent, z));
+  return { object, corners };
 }
