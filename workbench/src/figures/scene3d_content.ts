@@ -161,10 +161,10 @@ export function ground(box: THREE.Box3): { object: THREE.Object3D; corners: THRE
   const bar = [x0 - reach, y, z, x0 - reach + cell, y, z];
   const tick = 0.07 * cell;
   const ends = [0, cell].flatMap((d) => [x0 - reach + d, y - tick, z, x0 - reach + d, y + tick, z]);
-  const text = textSprite(lengthLabel(cell), 0.045 * extent);
-  text.position.set(x0 - reach + cell / 2, y - 0.035 * extent, z);
+  const text = textSprite(lengthLabel(cell), 0.07 * extent);
+  text.position.set(x0 - reach + cell / 2, y - 0.055 * extent, z);
   object.add(shade, segments(lines, "#c9ced4", 1), segments([...bar, ...ends], ink, 2.5), text);
   const corners = [-1, 1].flatMap((sx) => [-1, 1].map((sy) => new THREE.Vector3(x0 + sx * reach, y0 + sy * reach, z)));
-  corners.push(new THREE.Vector3(x0 - reach, y - 0.06 * extent, z));
+  corners.push(new THREE.Vector3(x0 - reach, y - 0.09 * extent, z));
   return { object, corners };
 }

@@ -3,7 +3,7 @@
 import type { Section } from "../book";
 import { fit as read, type Fit } from "../data";
 import { functionPanels, midribs } from "../figures/organ_functions";
-import { count, length, missing, percent, plural, significant } from "../format";
+import { count, fixed, length, missing, percent, plural, significant } from "../format";
 import { organs, type Organs } from "../organs";
 import { defineSection } from "./section";
 
@@ -55,7 +55,7 @@ function evidence(r: Fit, names: Organs, s: Section): void {
         head: kind,
         cell: (o: Fit["organs"][number]) => {
           const row = rows.find((q) => q.o === o && q.kind === kind);
-          return row ? significant(row.delta, 3) : missing;
+          return row ? fixed(row.delta, 1) : missing;
         },
       })),
     ],
