@@ -13,6 +13,7 @@ export interface Trace {
   mode?: "lines" | "markers" | "lines+markers" | "text";
   text?: string | readonly string[];
   textposition?: string;
+  textangle?: number;
   textfont?: Record<string, unknown>;
   line?: { color?: string; width?: number; dash?: string; shape?: string };
   marker?: Record<string, unknown>;

@@ -30,8 +30,9 @@ export function errorsByView(r: Calibrate, s: Section): void {
   });
   const kept = names.map((n, i) => bar(n, views.filter((v) => v.camera === n && !v.outlier), colour(i + 2)));
   const outliers = views.filter((v) => v.outlier);
+  const red: Trace = { ...bar("left out", outliers, rejected), text: outliers.map(label), textposition: "inside", textangle: -90, textfont: { color: "#ffffff", size: 10 } };
   const unnamed = views.filter((v) => v.camera === null && !v.outlier);
-  const data = [...kept, ...(unnamed.length > 0 ? [bar("no camera", unnamed, "#9aa3ad")] : []), bar("left out", outliers, rejected)];
+  const data = [...kept, ...(unnamed.length > 0 ? [bar("no camera", unnamed, "#9aa3ad")] : []), red];
   s.plot(
     "views",
     {

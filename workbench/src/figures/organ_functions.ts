@@ -36,6 +36,7 @@ export function functionPanels(r: Fit, names: Organs, s: Section): void {
     gapY: 0.13,
   });
   const seen = new Set<string>();
+  const opacity = Math.min(0.16, 1 / Math.max(1, r.organs.length));
   const data: Trace[] = functions.flatMap((f, i) =>
     r.organs.flatMap((o) => {
       const curve = o.functions[f]?.curve;
@@ -50,7 +51,7 @@ export function functionPanels(r: Fit, names: Organs, s: Section): void {
         yaxis: grid.panels[i]?.y ?? "y",
       };
       seen.add(name);
-      return [...bandLine({ x: curve.l, y: times(scale, curve.value), se: times(scale, curve.sigma) }, names.colour(o), at), ...measured(o, f, scale, names.colour(o), at)];
+      return [...bandLine({ x: curve.l, y: times(scale, curve.value), se: times(scale, curve.sigma) }, names.colour(o), at, opacity), ...measured(o, f, scale, names.colour(o), at)];
     }),
   );
   s.plot(
