@@ -39,9 +39,15 @@ struct Hit {
 
 enum class Escape { hit, top, bottom, wrap_limit };
 
+struct IntersectorOptions {
+  int max_wraps = 1000;                     // of a ray in a periodic domain
+  std::uint64_t flatten_limit = 4'000'000;  // up to so many discs and triangles, instances are written out
+  double margin_m = -1;                     // of copies kept around a periodic cell; negative: chosen
+};
+
 class Intersector {
  public:
-  explicit Intersector(const Scene& scene);
+  explicit Intersector(const Scene& scene, const IntersectorOptions& options = {});
   ~Intersector();
   Intersector(const Intersector&) = delete;
   Intersector& operator=(const Intersector&) = delete;
