@@ -1,8 +1,8 @@
 #include "reconstruct/reconstruct.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "core/nearest.h"
 #include "core/parallel.h"
@@ -12,12 +12,15 @@
 
 namespace bpms {
 
-std::string ReconstructedPoint::str() const { return fmt::format("{} point {}", label.str(), point); }
+std::string ReconstructedPoint::str() const {
+  return fmt::format("{} point {}", label.str(), point);
+}
 
 std::vector<VectorPoint> Vectors::accepted() const {
   std::vector<VectorPoint> out;
   for (const ReconstructedPoint& p : points) {
-    if (p.accepted()) out.push_back({p.label, p.point, p.estimate->x_m, p.estimate->covariance_m2(), p.where});
+    if (p.accepted())
+      out.push_back({p.label, p.point, p.estimate->x_m, p.estimate->covariance_m2(), p.where});
   }
   return out;
 }
@@ -49,10 +52,11 @@ Sighting sighting(const ImagePoint& p, const Rig& rig) {
     bad_input(p.where, "the rig has no camera {}{}", in_quotes(p.camera), did_you_mean(p.camera, names));
   }
   const Camera& camera = rig.cameras[static_cast<std::size_t>(index)];
-  const bool inside = p.u_px >= -0.5 && p.u_px <= camera.width_px - 0.5 && p.v_px >= -0.5 && p.v_px <= camera.height_px - 0.5;
+  const bool inside =
+      p.u_px >= -0.5 && p.u_px <= camera.width_px - 0.5 && p.v_px >= -0.5 && p.v_px <= camera.height_px - 0.5;
   if (!inside)
-    bad_input(p.where, "the pixel ({}, {}) lies outside the image of camera '{}', {}x{} pixels", p.u_px, p.v_px,
-              camera.name, camera.width_px, camera.height_px);
+    bad_input(p.where, "the pixel ({}, {}) lies outside the image of camera '{}', {}x{} pixels", p.u_px,
+              p.v_px, camera.name, camera.width_px, camera.height_px);
   return {index, {p.u_px, p.v_px}, p.sigma_px};
 }
 
@@ -69,13 +73,26 @@ std::vector<ReconstructedPoint> gather(const std::vector<ImagePoint>& points, co
       out.where = p.where;
     } else if (out.view != p.view) {
       // Between views the plant may have moved or been turned, so that their rays need not meet.
-      bad_input(p.where, "{} stands in view {} and in view {}: choose one view", out.str(), in_quotes(out.view),
-                in_quotes(p.view));
+      bad_input(p.where, "{} stands in view {} and in view {}: choose one view", out.str(),
+                in_quotes(out.view), in_quotes(p.view));
     }
     out.sightings.push_back(sighting(p, rig));
   }
+  if (gathered.empty() && options.view) {
+    std::vector<std::string> views;
+    for (const ImagePoint& p : points) {
+      if (std::find(views.begin(), views.end(), p.view) == views.end()) views.push_back(p.view);
+    }
+    bad_input({points.empty() ? "" : points.front().where.file}, "no point is of view {}{}",
+              in_quotes(*options.view), did_you_mean(*options.view, views));
+  }
   std::vector<ReconstructedPoint> out;
-  for (auto& [key, point] : gathered) out.push_back(std::move(point));
+  for (auto& [key, point] : gathered) {
+    // The result must not depend on the order of the rows.
+    std::sort(point.sightings.begin(), point.sightings.end(),
+              [](const Sighting& a, const Sighting& b) { return a.camera < b.camera; });
+    out.push_back(std::move(point));
+  }
   return out;
 }
 
@@ -106,7 +123,8 @@ void solve(ReconstructedPoint& point, const Rig& rig, const RigErrors* errors, d
 
 }  // namespace
 
-Vectors reconstruct(const std::vector<ImagePoint>& points, const Rig& rig, const ReconstructOptions& options) {
+Vectors reconstruct(const std::vector<ImagePoint>& points, const Rig& rig,
+                    const ReconstructOptions& options) {
   Vectors out;
   out.points = gather(points, rig, options);
   std::optional<RigErrors> errors;

@@ -6,8 +6,8 @@
 
 namespace bpms {
 
-GateResult gate(const Eigen::VectorXd& residual, const Eigen::MatrixXd& by_point, const Eigen::MatrixXd& by_rig,
-                const Eigen::MatrixXd& rig_covariance) {
+GateResult gate(const Eigen::VectorXd& residual, const Eigen::MatrixXd& by_point,
+                const Eigen::MatrixXd& by_rig, const Eigen::MatrixXd& rig_covariance) {
   const Eigen::Index dof = residual.size() - by_point.cols();
   const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(by_point).householderQ();
   const Eigen::MatrixXd null_space = basis.rightCols(dof);
@@ -31,7 +31,8 @@ double chi_squared_tail(double x, int dof) {
   const double half = x / 2;
   const bool odd = dof % 2 == 1;
   double tail = odd ? std::erfc(std::sqrt(half)) : std::exp(-half);
-  for (int k = odd ? 1 : 2; k < dof; k += 2) tail += std::exp(0.5 * k * std::log(half) - half - std::lgamma(0.5 * k + 1));
+  for (int k = odd ? 1 : 2; k < dof; k += 2)
+    tail += std::exp(0.5 * k * std::log(half) - half - std::lgamma(0.5 * k + 1));
   return std::min(tail, 1.0);
 }
 

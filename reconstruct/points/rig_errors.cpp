@@ -18,8 +18,8 @@ RigErrors::RigErrors(const Rig& rig) {
   for (const std::string& wanted : rig.covariance->order) {
     const auto found = std::find(names.begin(), names.end(), wanted);
     if (found == names.end())
-      bad_input({}, "the rig's covariance names {}, which is no parameter of its cameras{}", in_quotes(wanted),
-                did_you_mean(wanted, names));
+      bad_input({}, "the rig's covariance names {}, which is no parameter of its cameras{}",
+                in_quotes(wanted), did_you_mean(wanted, names));
     columns_.push_back(columns[static_cast<std::size_t>(found - names.begin())]);
   }
   covariance_ = rig.covariance->matrix;
@@ -38,8 +38,8 @@ Eigen::MatrixXd RigErrors::by_rig(const std::vector<Sighting>& sightings,
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (columns_[k].camera != sightings[i].camera) continue;
       const Eigen::Index p = columns_[k].parameter;
-      const Eigen::Vector2d derivative =
-          p < lens ? Eigen::Vector2d(projection.by_parameters.col(p)) : Eigen::Vector2d(projection.by_pose.col(p - lens));
+      const Eigen::Vector2d derivative = p < lens ? Eigen::Vector2d(projection.by_parameters.col(p))
+                                                  : Eigen::Vector2d(projection.by_pose.col(p - lens));
       out.block<2, 1>(static_cast<Eigen::Index>(2 * i), static_cast<Eigen::Index>(k)) =
           derivative / sightings[i].sigma_px;
     }

@@ -1,5 +1,5 @@
-// How the errors of the rig reach a pixel: the columns of the rig's covariance, matched to the derivatives that a
-// Projection carries.
+// How the errors of the rig reach a pixel: the columns of the rig's covariance, matched to the derivatives
+// that a Projection carries.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -11,12 +11,14 @@ namespace bpms {
 
 class RigErrors {
  public:
-  // Without a covariance there are no errors: size() is 0. A name in its order that is no parameter is bad input.
+  // Without a covariance there are no errors: size() is 0. A name in its order that is no parameter is bad
+  // input.
   explicit RigErrors(const Rig& rig);
   Eigen::Index size() const { return covariance_.rows(); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   // Derivatives of proj/sigma by the rig's free parameters, 2 rows a sighting.
-  Eigen::MatrixXd by_rig(const std::vector<Sighting>& sightings, const std::vector<Projection>& projections) const;
+  Eigen::MatrixXd by_rig(const std::vector<Sighting>& sightings,
+                         const std::vector<Projection>& projections) const;
 
  private:
   struct Column {

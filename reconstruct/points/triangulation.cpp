@@ -9,13 +9,13 @@
 namespace bpms {
 namespace {
 
-// Rays that differ by less than this many standard errors of their angle say nothing about the distance; the same
-// bound on range/sigma(range) keeps the Gaussian covariance meaningful.
+// Rays that differ by less than this many standard errors of their angle say nothing about the distance; the
+// same bound on range/sigma(range) keeps the Gaussian covariance meaningful.
 constexpr double least_significance = 3.0;
 
 struct Ray {
-  Eigen::Vector3d centre;        // of the camera, rig frame
-  Eigen::Vector3d direction;     // unit, rig frame
+  Eigen::Vector3d centre;     // of the camera, rig frame
+  Eigen::Vector3d direction;  // unit, rig frame
   double sigma_rad;
 };
 
@@ -40,15 +40,16 @@ std::optional<std::vector<Ray>> rays_of(const std::vector<Sighting>& sightings, 
 bool parallel(const std::vector<Ray>& rays) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const double angle =
-          std::atan2(rays[i].direction.cross(rays[j].direction).norm(), rays[i].direction.dot(rays[j].direction));
+      const double angle = std::atan2(rays[i].direction.cross(rays[j].direction).norm(),
+                                      rays[i].direction.dot(rays[j].direction));
       if (angle > least_significance * std::hypot(rays[i].sigma_rad, rays[j].sigma_rad)) return false;
     }
   }
   return true;
 }
 
-// The homogeneous point X with d_i x (X - c_i) = 0 for all rays, in units of the rig's extent about its middle.
+// The homogeneous point X with d_i x (X - c_i) = 0 for all rays, in units of the rig's extent about its
+// middle.
 std::optional<Eigen::Vector3d> linear_start(const std::vector<Ray>& rays) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Ray& ray : rays) middle += ray.centre / static_cast<double>(rays.size());
@@ -70,7 +71,8 @@ std::optional<Eigen::Vector3d> linear_start(const std::vector<Ray>& rays) {
 }
 
 // Residuals and derivatives at X; false where a camera does not see X.
-bool evaluate(const std::vector<Sighting>& sightings, const Rig& rig, const Eigen::Vector3d& x, Triangulation& out) {
+bool evaluate(const std::vector<Sighting>& sightings, const Rig& rig, const Eigen::Vector3d& x,
+              Triangulation& out) {
   const auto rows = static_cast<Eigen::Index>(2 * sightings.size());
   out.x_m = x;
   out.residual.resize(rows);
@@ -135,11 +137,13 @@ Triangulation triangulate(const std::vector<Sighting>& sightings, const Rig& rig
   const Eigen::Matrix3d normal = out.by_point.transpose() * out.by_point;
   out.covariance_m2 = normal.ldlt().solve(Eigen::Matrix3d::Identity());
   out.covariance_m2 = (0.5 * (out.covariance_m2 + out.covariance_m2.transpose())).eval();
-  const Eigen::Vector3d variances = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(out.covariance_m2).eigenvalues();
+  const Eigen::Vector3d variances =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(out.covariance_m2).eigenvalues();
   double range = (out.x_m - rays->front().centre).norm();
   for (const Ray& ray : *rays) range = std::min(range, (out.x_m - ray.centre).norm());
   const bool determined = out.covariance_m2.allFinite() && variances.minCoeff() > 0;
-  if (!determined || least_significance * std::sqrt(variances.maxCoeff()) > range) return failed("parallel rays");
+  if (!determined || least_significance * std::sqrt(variances.maxCoeff()) > range)
+    return failed("parallel rays");
   return out;
 }
 
