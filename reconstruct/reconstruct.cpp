@@ -73,10 +73,11 @@ std::vector<ReconstructedPoint> gather(const std::vector<ImagePoint>& points, co
       out.where = p.where;
     } else if (out.view != p.view) {
       // Between views the plant may have moved or been turned, so that their rays need not meet.
-      bad_input(p.where,
-                "{} stands in view {} and in view {}: a view is one frame of the whole rig, with the same name for "
-                "all its cameras; choose one view of several",
-                out.str(), in_quotes(out.view), in_quotes(p.view));
+      bad_input(
+          p.where,
+          "{} stands in view {} and in view {}: a view is one frame of the whole rig, with the same name for "
+          "all its cameras; choose one view of several",
+          out.str(), in_quotes(out.view), in_quotes(p.view));
     }
     out.sightings.push_back(sighting(p, rig));
   }

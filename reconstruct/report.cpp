@@ -99,15 +99,13 @@ Json check_json(const DisparityCheck& check) {
 }
 
 Json rim_figures(const Rim& rim) {
-  const std::string enlarged =
-      rim.chi2 > rim.dof ? fmt::format(", sigma enlarged by {:.2f}", std::sqrt(rim.chi2 / rim.dof)) : "";
   Json out = Json::array();
   out.push_back({{"name", "pot rim diameter"},
                  {"value", rim.diameter_m},
                  {"sigma", rim.diameter_sigma_m},
                  {"unit", "m"},
-                 {"note", fmt::format("circle through {} points, chi2 {:.1f} with {} degrees of freedom{}",
-                                      rim.points, rim.chi2, rim.dof, enlarged)}});
+                 {"note", fmt::format("circle through {} points, {:.2g} mm rms off it beyond their errors",
+                                      rim.points, 1e3 * rim.roughness_m)}});
   const double plane_sigma = rim.plane_rms_m / std::sqrt(2.0 * rim.points);
   out.push_back({{"name", "pot rim plane rms"},
                  {"value", rim.plane_rms_m},

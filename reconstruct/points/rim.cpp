@@ -107,8 +107,7 @@ Circle moved(const Circle& from, const Linear& linear, const Vector6& step) {
   return out;
 }
 
-Circle optimise(const Data& data) {
-  Circle at = start(data);
+Circle optimise(const Data& data, Circle at) {
   double now = cost(data, at), damping = 1e-3;
   constexpr int most_steps = 200;
   for (int step = 0; step < most_steps; ++step) {
@@ -139,6 +138,38 @@ Circle optimise(const Data& data) {
        data.x.size());
 }
 
+Data data_of(const std::vector<const ReconstructedPoint*>& points, double roughness) {
+  Data out;
+  for (const ReconstructedPoint* p : points) {
+    out.x.push_back(p->estimate->x_m);
+    const Eigen::Matrix3d c =
+        p->estimate->digitising_covariance_m2 + roughness * roughness * Eigen::Matrix3d::Identity();
+    out.whitener.push_back(c.llt().matrixL().solve(Eigen::Matrix3d::Identity().eval()));
+  }
+  return out;
+}
+
+struct Fit {
+  double roughness;
+  Data data;
+  Circle circle;
+};
+
+Fit fit(const std::vector<const ReconstructedPoint*>& points, int dof) {
+  Fit out{0, data_of(points, 0), {}};
+  out.circle = optimise(out.data, start(out.data));
+  double low = 0, high = out.circle.radius;
+  if (cost(out.data, out.circle) <= dof) return out;
+  constexpr double precise = 1e-4;
+  while (high - low > precise * high) {
+    out.roughness = 0.5 * (low + high);
+    out.data = data_of(points, out.roughness);
+    out.circle = optimise(out.data, start(out.data));
+    (cost(out.data, out.circle) > dof ? low : high) = out.roughness;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<const ReconstructedPoint*> pot_outline(const Vectors& vectors) {
@@ -155,21 +186,14 @@ Rim fit_rim(const std::vector<const ReconstructedPoint*>& points, const Eigen::M
   if (points.size() < least_points)
     bad_input({}, "{} accepted points labelled organ 'pot', feature 'outline'; a rim needs at least {}",
               points.size(), least_points);
-  Data data;
-  for (const ReconstructedPoint* p : points) {
-    data.x.push_back(p->estimate->x_m);
-    data.whitener.push_back(
-        p->estimate->digitising_covariance_m2.llt().matrixL().solve(Eigen::Matrix3d::Identity().eval()));
-  }
-  const Circle circle = optimise(data);
+  Rim out;
+  out.points = static_cast<int>(points.size());
+  out.dof = 2 * out.points - 6;
+  const auto [roughness, data, circle] = fit(points, out.dof);
   const Linear linear = linearise(data, circle);
   const Eigen::LDLT<Matrix6> solver(linear.normal);
 
-  Rim out;
-  out.points = static_cast<int>(points.size());
-  out.chi2 = cost(data, circle);
-  out.dof = 2 * out.points - 6;
-  Matrix6 covariance = solver.solve(Matrix6::Identity()) * std::max(1.0, out.chi2 / out.dof);
+  Matrix6 covariance = solver.solve(Matrix6::Identity());
   if (rig_covariance.size() > 0) {
     Eigen::MatrixXd by_rig = Eigen::MatrixXd::Zero(6, rig_covariance.rows());
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -177,6 +201,8 @@ Rim fit_rim(const std::vector<const ReconstructedPoint*>& points, const Eigen::M
     by_rig = solver.solve(by_rig).eval();
     covariance += by_rig * rig_covariance * by_rig.transpose();
   }
+  out.roughness_m = roughness;
+  out.chi2 = cost(data, circle);
   out.centre_m = circle.centre;
   out.normal = circle.normal().normalized();
   if (out.normal.dot(towards) < 0) out.normal = -out.normal;

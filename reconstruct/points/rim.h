@@ -1,12 +1,13 @@
 // A circle in space through points with covariances: the rim of a plant pot gives the horizontal and a scale
 // check.
 //
-// Model: x_i = c + R (cos f_i e1 + sin f_i e2) + error_i, error_i ~ N(0, C_i); unknown c, the normal n = e1 x
-// e2, R and the angles f_i (eliminated point by point). Maximum likelihood by Levenberg-Marquardt from the
-// least-squares plane and Kasa's circle in it. The chi-square has 3N - N - 6 = 2N - 6 degrees of freedom.
-// Where it is larger than they are (points set down along the rim, a rim that is not round), the sigmas are
-// enlarged by sqrt(chi2/dof). Rig errors are common to all points: they are propagated as such (dp/dx_i
-// dx_i/db) and do not average out.
+// Model: x_i = c + R (cos f_i e1 + sin f_i e2) + error_i, error_i ~ N(0, C_i + s^2 I); unknown c, the normal
+// n = e1 x e2, R and the angles f_i (eliminated point by point). Maximum likelihood by Levenberg-Marquardt
+// from the least-squares plane and Kasa's circle in it. The chi-square has 3N - N - 6 = 2N - 6 degrees of
+// freedom. s is how far the real rim is off a circle: 0 while chi-square <= dof, else what makes them equal
+// (the estimator of Mandel & Paule 1970). Without it, points whose depth is known ten times worse than their
+// height would tie the circle to every dent. Rig errors are common to all points: they are propagated as such
+// and do not average out.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -22,8 +23,9 @@ struct Rim {
   double diameter_sigma_m = 0;
   double normal_sigma_rad = 0;  // root of the sum of the two variances of its direction
   double tilt_rad = 0;          // between the normal and `towards`
-  double plane_rms_m = 0;       // distance of the points from the circle's plane
-  double chi2 = 0;
+  double plane_rms_m = 0;       // of the points' distances from the circle's plane
+  double roughness_m = 0;       // s
+  double chi2 = 0;              // with s
   int dof = 0;
   int points = 0;
 };
