@@ -17,6 +17,7 @@ using bpms::Cli;
 constexpr void (*verbs[])(Cli&) = {
     bpms::add_check,
     bpms::add_report,
+    bpms::add_reconstruct,
 };
 
 int parse_and_run(Cli& cli, int argc, char** argv) {

@@ -5,4 +5,5 @@ namespace bpms {
 struct Cli;
 void add_check(Cli& cli);
 void add_report(Cli& cli);
+void add_reconstruct(Cli& cli);
 }  // namespace bpms
