@@ -18,6 +18,7 @@ constexpr void (*verbs[])(Cli&) = {
     bpms::add_check,
     bpms::add_report,
     bpms::add_reconstruct,
+    bpms::add_fit,
 };
 
 int parse_and_run(Cli& cli, int argc, char** argv) {

@@ -6,4 +6,5 @@ struct Cli;
 void add_check(Cli& cli);
 void add_report(Cli& cli);
 void add_reconstruct(Cli& cli);
+void add_fit(Cli& cli);
 }  // namespace bpms
