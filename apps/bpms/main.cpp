@@ -16,7 +16,7 @@ using bpms::Cli;
 
 constexpr void (*verbs[])(Cli&) = {
     bpms::add_check,
-    bpms::add_report,
+    bpms::add_simulate, bpms::add_report,
 };
 
 int parse_and_run(Cli& cli, int argc, char** argv) {

@@ -5,4 +5,5 @@ namespace bpms {
 struct Cli;
 void add_check(Cli& cli);
 void add_report(Cli& cli);
+void add_simulate(Cli& cli);
 }  // namespace bpms
