@@ -19,6 +19,7 @@ constexpr void (*verbs[])(Cli&) = {
     bpms::add_report,
     bpms::add_reconstruct,
     bpms::add_fit,
+    bpms::add_simulate, bpms::add_report,
 };
 
 int parse_and_run(Cli& cli, int argc, char** argv) {

@@ -7,4 +7,5 @@ void add_check(Cli& cli);
 void add_report(Cli& cli);
 void add_reconstruct(Cli& cli);
 void add_fit(Cli& cli);
+void add_simulate(Cli& cli);
 }  // namespace bpms
