@@ -16,10 +16,10 @@ using bpms::Cli;
 
 constexpr void (*verbs[])(Cli&) = {
     bpms::add_check,
-    bpms::add_report,
     bpms::add_reconstruct,
     bpms::add_fit,
-    bpms::add_simulate, bpms::add_report,
+    bpms::add_simulate,
+    bpms::add_report,
 };
 
 int parse_and_run(Cli& cli, int argc, char** argv) {
