@@ -28,7 +28,9 @@ std::string check_plant(const std::string& path) {
 const std::vector<FileKind>& kinds() {
   static const std::vector<FileKind> table{
       {"points.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "u_px"); },
-       [](const std::string& path) { return fmt::format("{} image points", read_image_points(path).size()); }},
+       [](const std::string& path) {
+         return fmt::format("{} image points", read_image_points(path).size());
+       }},
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
       {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
@@ -58,8 +60,9 @@ void run(const Cli& cli, const std::vector<std::string>& files) {
 
 void add_check(Cli& cli) {
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* verb = add_verb(cli, "check", "validate any file that bpms reads", "bpms check wheat.bpms scene.toml vectors.csv",
-                            [&cli, files] { run(cli, *files); });
+  CLI::App* verb =
+      add_verb(cli, "check", "validate any file that bpms reads",
+               "bpms check wheat.bpms scene.toml vectors.csv", [&cli, files] { run(cli, *files); });
   verb->add_option("files", *files, "files of any kind")->required();
 }
 
