@@ -10,7 +10,9 @@
 
 namespace bpms {
 
-// Names the surface element a ray starts on, so that it is not hit again at once.
+// Names the surface element a ray starts on, so that it is not hit again at once. `instance` is the index
+// into Scene::instances, `geometry` 0 for discs, 1 for the mesh, 2 for the ground; triangles are numbered as
+// in the mesh, discs in the intersector's own order.
 struct SurfaceId {
   std::uint32_t instance = 0xffffffffu;
   std::uint32_t geometry = 0xffffffffu;

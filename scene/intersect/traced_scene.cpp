@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/geometry/morton.h"
 
 namespace bpms {
 
@@ -16,6 +17,7 @@ TracedScene::TracedScene(const Scene& scene, const IntersectorOptions& options)
       size_(scene.domain.size_m) {
   if (periodic_ && !(size_.minCoeff() > 0))
     throw Error(ErrorKind::bad_input, "a periodic domain needs a size (domain.size_m)");
+  sort_discs();
   make_triangle_normals();
   std::vector<Box> prototype_bounds, instance_bounds;
   for (const Prototype& prototype : prototypes_) prototype_bounds.push_back(bounds(prototype));
@@ -45,6 +47,18 @@ TracedScene::TracedScene(const Scene& scene, const IntersectorOptions& options)
     }
   }
   top_.commit();
+}
+
+// Embree keeps points by number only: discs that lie together should be numbered together.
+void TracedScene::sort_discs() {
+  for (Prototype& prototype : prototypes_) {
+    std::vector<Eigen::Vector3f> centres;
+    for (const Disc& disc : prototype.discs) centres.push_back(disc.centre_m);
+    std::vector<Disc> sorted;
+    sorted.reserve(centres.size());
+    for (const std::uint32_t k : morton_order(centres)) sorted.push_back(prototype.discs[k]);
+    prototype.discs = std::move(sorted);
+  }
 }
 
 void TracedScene::make_triangle_normals() {
@@ -112,7 +126,8 @@ void TracedScene::choose_layout(const IntersectorOptions& options) {
   for (const Instance& instance : instances_) ++uses[instance.prototype];
   for (Copy& copy : copies_) {
     const std::uint32_t p = instances_[copy.instance].prototype;
-    copy.flat = options.flatten_below > 0 && (uses[p] == 1 || uses[p] * primitives(p) <= options.flatten_below);
+    copy.flat =
+        options.flatten_below > 0 && (uses[p] == 1 || uses[p] * primitives(p) <= options.flatten_below);
     copy.whole = copy.whole || !copy.flat;
     if (!copy.flat) instanced_ = true;
   }

@@ -30,7 +30,7 @@ class TracedScene {
     Eigen::Vector3d point;
     Eigen::Vector3d normal;
   };
-  SurfaceId id(const embree::Found& found) const;     // as the scene numbers things
+  SurfaceId id(const embree::Found& found) const;
   Plane plane(const embree::Found& found) const;      // where it was met, in whichever copy
   Eigen::Vector3d normal(const SurfaceId& id) const;  // the same for all copies
   // A point and a direction of the found copy's prototype, in the world.
@@ -70,6 +70,7 @@ class TracedScene {
   std::uint64_t primitives(std::uint32_t prototype) const;
   Eigen::Vector3d place(std::uint32_t instance, const Eigen::Vector3f& point) const;
   bool inside(const Box& b, const Eigen::Vector2d& shift) const;
+  void sort_discs();
   void make_triangle_normals();
   void make_copies(const std::vector<Box>& instance_bounds);
   void choose_layout(const IntersectorOptions& options);
