@@ -13,6 +13,12 @@ namespace bpms {
 // The rotation Ry(i) Rx(a) Rz(t); columns x (downward-facing side), y (across), z (along).
 Eigen::Matrix3d organ_rotation(double inclination, double azimuth, double twist);
 
+// The frame at l in the organ's own frame: the rotation by the functions (absent = 0), without the constants
+// a_.
+Eigen::Matrix3d organ_frame(const OrganAttributes& organ, double l);
+// Places in (0, 1) where one of the organ's functions may have a kink, rising.
+std::vector<double> organ_breaks(const OrganAttributes& organ);
+
 struct MidribPoint {
   double l = 0;
   Eigen::Vector3d x_m;    // in the organ's frame, base at the origin

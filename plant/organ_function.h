@@ -1,7 +1,7 @@
 // Functions of normalised length l in [0, 1] that shape an organ (inclination, azimuth, twist, curvature,
 // width). Codes in the plant text: n piecewise linear, p power series, f cosine series, s natural cubic
-// spline. To add a kind: one file organ_function_X.cpp with a class, and one line in the table of
-// organ_function.cpp.
+// spline. To add a kind: one file functions/organ_function_X.cpp with a class, and one line in the table of
+// functions/organ_function.cpp.
 #pragma once
 #include <memory>
 #include <string>
@@ -23,7 +23,7 @@ class OrganFunction {
   // Places in (0, 1) where a derivative may jump (knots): where a mesh or a quadrature should put a node.
   virtual std::vector<double> breaks() const { return {}; }
   // value = sum_k coefficient_k * basis_k(l): all kinds are linear in their coefficients (values at the knots
-  // for n and s).
+  // for n and s). Coefficients are in the unit of the text (degrees for angles); the basis holds the scale.
   virtual int coefficients() const = 0;
   virtual void basis(double l, double* out) const = 0;
   virtual std::unique_ptr<OrganFunction> with_coefficients(const std::vector<double>& values) const = 0;

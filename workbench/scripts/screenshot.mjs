@@ -27,7 +27,12 @@ if (!page || !out || !existsSync(page)) {
   process.exit(page && out ? 3 : 2);
 }
 const width = Number(named.width ?? 1100);
-const height = Number(named.height ?? (named.only ? 1400 : 900));
+const height = Number(named.height ?? (named.only ? 4000 : 900));
+const largest = 8192; // beyond, Chromium's software drawing repeats the picture
+if (!(width > 0 && height > 0 && Math.max(width, height) * Number(named.scale ?? 1) <= largest)) {
+  console.error(`error: a picture may be at most ${largest} pixels wide and high; take parts with --only`);
+  process.exit(2);
+}
 const profile = mkdtempSync(join(tmpdir(), "bpms-chromium-"));
 const url = pathToFileURL(resolve(page)).href + (named.only ? `#only=${named.only}` : "");
 const browser = process.env.CHROMIUM ?? "chromium";

@@ -87,7 +87,7 @@ export class Section {
 
   table<Row>(columns: readonly Column<Row>[], rows: readonly Row[], caption: string, mark?: (row: Row) => string | null): void {
     if (rows.length === 0) return;
-    const long = rows.length > 14;
+    const long = rows.length > 20;
     const holder = h("div", { class: long ? "scroll long" : "scroll" }, table(columns, rows, mark));
     const line = h("p", { class: "caption" }, h("b", {}, `Table ${this.book.nextTable()}. `), caption);
     this.add(h("div", { class: "table" }, line, holder));
@@ -100,6 +100,7 @@ export class Section {
     if (!first) return;
     const firstSpec = first.spec();
     place.style.minHeight = `${firstSpec.height}px`;
+    if (firstSpec.maxWidth !== undefined) place.style.maxWidth = `${firstSpec.maxWidth}px`;
     const select = choices.length > 1 ? h("select", {}, ...choices.map((c, i) => h("option", { value: i }, c.label))) : null;
     select?.addEventListener("change", () => draw(place, (choices[Number(select.value)] ?? first).spec()));
     const content = h("div", {}, select && h("label", { class: "choice" }, "Show ", select), place);

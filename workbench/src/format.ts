@@ -33,12 +33,12 @@ export function count(value: Num): string {
   return fixed(value, 0);
 }
 
-// `digits` significant digits; powers of ten outside 1e-4 .. 1e7.
+// `digits` significant digits; powers of ten outside 1e-5 .. 1e7.
 export function significant(value: Num, digits = 4): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return missing;
   if (value === 0) return "0";
   const exponent = Number(value.toExponential(digits - 1).split("e")[1]);
-  if (exponent < -4 || exponent >= 7) {
+  if (exponent < -5 || exponent >= 7) {
     const mantissa = (value / 10 ** exponent).toFixed(digits - 1);
     return `${signed(mantissa)} × 10${superscript(exponent)}`;
   }
@@ -57,7 +57,7 @@ export function withSigma(value: Num, sigma: Num, unit = "", digits = 5): string
   if (sigma === null || sigma === undefined || !Number.isFinite(sigma) || sigma <= 0)
     return significant(value, digits) + suffix;
   const largest = Math.floor(Math.log10(Math.max(Math.abs(value), sigma)));
-  if (largest < -4 || largest >= 7) {
+  if (largest < -5 || largest >= 7) {
     const scale = 10 ** largest;
     return `(${withSigma(value / scale, sigma / scale)}) × 10${superscript(largest)}${suffix}`;
   }

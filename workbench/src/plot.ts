@@ -13,6 +13,7 @@ export interface Trace {
   mode?: "lines" | "markers" | "lines+markers" | "text";
   text?: string | readonly string[];
   textposition?: string;
+  textangle?: number;
   textfont?: Record<string, unknown>;
   line?: { color?: string; width?: number; dash?: string; shape?: string };
   marker?: Record<string, unknown>;
@@ -34,7 +35,8 @@ export interface Trace {
 export interface PlotSpec {
   data: Trace[];
   layout: Record<string, unknown>;
-  height: number;
+  height: number; // without the legend below
+  maxWidth?: number;
 }
 
 export const font = 'system-ui, "Segoe UI", "Helvetica Neue", Arial, "DejaVu Sans", sans-serif';
@@ -66,7 +68,6 @@ export function withDefaults(layout: Record<string, unknown>): Record<string, un
     margin: { l: 64, r: 20, t: 28, b: 52 },
     hovermode: "closest",
     hoverlabel: { font: { family: font, size: 12 } },
-    legend: { orientation: "h", x: 0, y: -0.16, yanchor: "top", font: { size: 12 } },
     xaxis: {},
     yaxis: {},
     ...layout,
@@ -96,6 +97,24 @@ export function mark(x: number, name: string, xref = "x", yref = "y"): { shape: 
   }; // prettier-ignore
 }
 
+// A legend under the chart: as many rows as its names need, for which the chart grows.
+export function legendBelow(data: readonly Trace[], width: number): { rows: number; layout: Record<string, unknown> } {
+  const names = new Set(data.filter((t) => t.showlegend !== false && t.name !== undefined).map((t) => t.name ?? ""));
+  const total = [...names].reduce((sum, n) => sum + 52 + 7.4 * n.length, 0);
+  const rows = Math.max(1, Math.ceil(total / Math.max(200, width - 90)));
+  return { rows, layout: { orientation: "h", x: 0, yref: "container", y: 0.002, yanchor: "bottom", font: { size: 12 } } };
+}
+
+// The layout as it is drawn, with its final height.
+export function complete(spec: PlotSpec, width: number): Record<string, unknown> {
+  const below = spec.layout["showlegend"] === true && spec.layout["legend"] === undefined ? legendBelow(spec.data, width) : null;
+  if (!below) return { ...withDefaults(spec.layout), height: spec.height };
+  const extra = 8 + 20 * below.rows;
+  const margin = { l: 64, r: 20, t: 28, b: 52, ...(spec.layout["margin"] as object | undefined) };
+  const layout = { ...spec.layout, legend: below.layout, margin: { ...margin, b: margin.b + extra } };
+  return { ...withDefaults(layout), height: spec.height + extra };
+}
+
 export function draw(element: HTMLElement, spec: PlotSpec): void {
   const config = {
     responsive: true,
@@ -103,7 +122,7 @@ export function draw(element: HTMLElement, spec: PlotSpec): void {
     modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
     toImageButtonOptions: { format: "svg" },
   };
-  const layout = { ...withDefaults(spec.layout), height: spec.height };
+  const layout = complete(spec, element.clientWidth || 1060);
   // Our traces are a subset of Plotly's; its own types cannot express arbitrary numbers of axes.
   void Plotly.react(element, spec.data as Plotly.Data[], layout as Partial<Plotly.Layout>, config as Partial<Plotly.Config>);
 }

@@ -43,15 +43,15 @@ export function calibrate() {
   }; // prettier-ignore
 }
 
-// The plant stands 0.62 m before the left camera; camera frame x right, y down, z forward.
-const toCamera = ([x, y, z]) => [x + baseline / 2, 0.2 - z, 0.62 + y];
+// The plant stands 0.78 m before the left camera; camera frame x right, y down, z forward.
+const toCamera = ([x, y, z]) => [x + baseline / 2, 0.22 - z, 0.78 + y];
 const project = ([x, y, z], view) => {
   const shift = view === "left" ? 0 : baseline;
   return [(focal * (x - shift)) / z + 320, (focal * y) / z + 240];
 };
 
 function photograph(view) {
-  const strips = leaves.map((leaf) => edges(leaf, 24).map((e) => ({ at: project(toCamera(e.middle), view), half: Math.max(1.5, (0.5 * focal * width(leaf, 0.5)) / 0.62 / 2.2) })));
+  const strips = leaves.map((leaf) => edges(leaf, 24).map((e) => ({ at: project(toCamera(e.middle), view), half: Math.max(1.5, (0.5 * focal * width(leaf, 0.5)) / 0.78 / 1.6) })));
   const stem = range(0, stemHeight, 24).map((z) => ({ at: project(toCamera([0, 0, z]), view), half: 3 }));
   const inside = (strip, x, y) => strip.some(({ at, half }, i) => {
     const b = (strip[i + 1] ?? strip[i]).at;

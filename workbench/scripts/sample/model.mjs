@@ -34,7 +34,7 @@ export function build() {
 }
 
 export function describe() {
-  const g = (t) => 0.5 + 0.16 * Math.cos(2 * t * radians) - 0.02;
+  const g = (t) => 0.5 + 0.06 * (Math.cos(2 * t * radians) - Math.cos(115 * radians));
   const zeniths = [0, 10, 20, 30, 40, 50, 57.5, 65, 75, 85];
   const weights = range(5, 85, 9).map((t) => 0.55 * Math.sin(t * radians) + 0.45 * (1 - Math.cos(2 * t * radians)) + 0.12);
   const total = weights.reduce((a, b) => a + b, 0);

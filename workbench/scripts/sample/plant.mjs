@@ -30,7 +30,7 @@ export const stemHeight = 0.34;
 export const inclination = (leaf, l) => leaf.from + (leaf.to - leaf.from) * l ** 1.3;
 export const azimuth = (leaf, l) => 12 * Math.sin(2.2 * l + leaf.rank);
 export const twist = (leaf, l) => 9 * leaf.rank * l * l - 6 * l;
-export const width = (leaf, l) => leaf.width * (0.35 + 2.4 * l - 1.75 * l * l - l ** 5) * 0.98;
+export const width = (leaf, l) => leaf.width * (0.35 + 2.4 * l - 1.75 * l * l - l ** 5) * 1.3;
 
 // Midrib in the plant's frame, metres, z up: the direction turns with inclination and azimuth.
 export function midrib(leaf, n) {

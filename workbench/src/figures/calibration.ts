@@ -30,8 +30,9 @@ export function errorsByView(r: Calibrate, s: Section): void {
   });
   const kept = names.map((n, i) => bar(n, views.filter((v) => v.camera === n && !v.outlier), colour(i + 2)));
   const outliers = views.filter((v) => v.outlier);
+  const red: Trace = { ...bar("left out", outliers, rejected), text: outliers.map(label), textposition: "inside", textangle: -90, textfont: { color: "#ffffff", size: 10 } };
   const unnamed = views.filter((v) => v.camera === null && !v.outlier);
-  const data = [...kept, ...(unnamed.length > 0 ? [bar("no camera", unnamed, "#9aa3ad")] : []), bar("left out", outliers, rejected)];
+  const data = [...kept, ...(unnamed.length > 0 ? [bar("no camera", unnamed, "#9aa3ad")] : []), red];
   s.plot(
     "views",
     {
@@ -42,7 +43,7 @@ export function errorsByView(r: Calibrate, s: Section): void {
         bargap: 0.25,
         xaxis: { categoryorder: "array", categoryarray: views.map(label), tickangle: -50, tickfont: { size: views.length > 45 ? 8 : 10 }, dtick: views.length > 80 ? undefined : 1 },
         yaxis: { title: axisTitle("rms residual (px)"), rangemode: "tozero" },
-        legend: { orientation: "h", x: 1, xanchor: "right", y: 1.02, yanchor: "bottom" },
+        legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" },
         showlegend: true,
         margin: { l: 64, r: 20, t: 36, b: 90 },
       },
@@ -71,20 +72,20 @@ export function quiverByCamera(r: Calibrate, s: Section): void {
     const p = grid.panels[i];
     if (!p) return;
     const [w, hgt] = size(name);
-    layout[p.xKey] = { ...(layout[p.xKey] as object), range: [-0.5, w - 0.5], constrain: "domain", zeroline: false };
-    layout[p.yKey] = { ...(layout[p.yKey] as object), range: [hgt - 0.5, -0.5], scaleanchor: p.x, constrain: "domain", zeroline: false };
+    layout[p.xKey] = { ...(layout[p.xKey] as object), constraintoward: "left", range: [-0.5, w - 0.5], constrain: "domain", zeroline: false };
+    layout[p.yKey] = { ...(layout[p.yKey] as object), range: [hgt - 0.5, -0.5], scaleanchor: p.x, constrain: "domain", constraintoward: "top", zeroline: false };
   });
   const data = names.flatMap((name, i) => {
     const p = grid.panels[i];
     const at = { xaxis: p?.x ?? "x", yaxis: p?.y ?? "y" };
-    return [...quiver(of(name, false), scale, colour(i + 2), at), ...quiver(of(name, true), scale, rejected, at)];
+    return [...quiver(of(name, true), scale, rejected, { ...at, opacity: 0.35 }), ...quiver(of(name, false), scale, colour(i + 2), at)];
   });
   const columns = Math.min(2, names.length);
-  const height = Math.min(640, (1000 / columns) * aspect) * grid.rows + 90;
+  const height = Math.min(640, (columns > 1 ? 455 : 975) * aspect) * grid.rows + 84;
   s.plot(
     "quiver",
     { height: Math.round(height), data, layout },
-    `Residual vectors over the image of each camera, drawn ${significant(scale, 3)} times their length: a line of ${significant(scale, 3)} px stands for 1 px. ` +
+    `Residual vectors over the image of each camera, drawn ${significant(scale, 3)} times their length: a line of ${significant(scale, 3)} px stands for 1\u00a0px. ` +
       "Dots are the corners; red ones belong to views left out. A sound lens model leaves no pattern.",
   );
 }
@@ -107,12 +108,13 @@ export function residualScatter(r: Calibrate, s: Section): void {
   s.plot(
     "scatter",
     {
-      height: 480,
+      height: 500,
+      maxWidth: 560,
       data,
       layout: {
         xaxis: { title: axisTitle("du (px)"), range, constrain: "domain" },
         yaxis: { title: axisTitle("dv (px)"), range, scaleanchor: "x", constrain: "domain" },
-        legend: { orientation: "h", x: 0.5, xanchor: "center", y: 1.01, yanchor: "bottom" },
+        legend: { orientation: "h", x: 0, y: 1.01, yanchor: "bottom" },
         showlegend: true,
       },
     },

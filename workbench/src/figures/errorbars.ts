@@ -38,9 +38,9 @@ export function errorLine(s: Samples, colour: string, extra: Partial<Trace> = {}
 }
 
 // The band first, so that the line lies over it.
-export function bandLine(s: Samples, colour: string, extra: Partial<Trace> = {}, dash = "solid"): Trace[] {
+export function bandLine(s: Samples, colour: string, extra: Partial<Trace> = {}, opacity = 0.16): Trace[] {
   const { x, y, se } = sorted(s);
-  const line: Trace = { type: "scatter", mode: "lines", x, y, line: { color: colour, width: 1.5, dash }, ...extra };
+  const line: Trace = { type: "scatter", mode: "lines", x, y, line: { color: colour, width: 1.5 }, ...extra };
   const known = x.flatMap((xi, i) => {
     const yi = y[i];
     const e = se[i];
@@ -56,7 +56,7 @@ export function bandLine(s: Samples, colour: string, extra: Partial<Trace> = {},
     y: [...known.map((k) => k.high), ...back.map((k) => k.low)],
     line: { color: "rgba(0,0,0,0)", width: 0 },
     fill: "toself",
-    fillcolor: alpha(colour, 0.16),
+    fillcolor: alpha(colour, opacity),
     hoverinfo: "skip",
     showlegend: false,
   };

@@ -15,7 +15,7 @@ const order = ["inclination", "azimuth", "twist", "width", "curvature"];
 
 function scaleAndUnit(name: string, unit: string | null): [number, string] {
   if (unit === "m" || (unit === null && name === "width")) return [1000, "mm"];
-  return [1, unit ?? "°"];
+  return [1, unit === null || unit === "deg" ? "°" : unit];
 }
 
 const times = (scale: number, v: readonly (number | null)[]): (number | null)[] => v.map((x) => (x === null ? null : x * scale));
@@ -36,6 +36,7 @@ export function functionPanels(r: Fit, names: Organs, s: Section): void {
     gapY: 0.13,
   });
   const seen = new Set<string>();
+  const opacity = Math.min(0.16, 1 / Math.max(1, r.organs.length));
   const data: Trace[] = functions.flatMap((f, i) =>
     r.organs.flatMap((o) => {
       const curve = o.functions[f]?.curve;
@@ -50,7 +51,7 @@ export function functionPanels(r: Fit, names: Organs, s: Section): void {
         yaxis: grid.panels[i]?.y ?? "y",
       };
       seen.add(name);
-      return [...bandLine({ x: curve.l, y: times(scale, curve.value), se: times(scale, curve.sigma) }, names.colour(o), at), ...measured(o, f, scale, names.colour(o), at)];
+      return [...bandLine({ x: curve.l, y: times(scale, curve.value), se: times(scale, curve.sigma) }, names.colour(o), at, opacity), ...measured(o, f, scale, names.colour(o), at)];
     }),
   );
   s.plot(
@@ -58,7 +59,7 @@ export function functionPanels(r: Fit, names: Organs, s: Section): void {
     {
       height: 320 * grid.rows + 80,
       data,
-      layout: { ...grid.layout, annotations: grid.annotations, showlegend: true, legend: { orientation: "h", x: 0, y: grid.rows > 1 ? -0.1 : -0.2, yanchor: "top" } },
+      layout: { ...grid.layout, annotations: grid.annotations, showlegend: true },
     },
     "The fitted functions, a line for each organ with its band of ±1.96 σ; dots are measured values where the input has them. Click a name in the legend to hide an organ, double-click to see it alone.",
   );
@@ -107,10 +108,11 @@ export function midribs(r: Fit, names: Organs, s: Section): void {
   s.plot(
     "midribs",
     {
-      height: 460,
+      height: 480,
+      maxWidth: 760,
       data,
       layout: {
-        xaxis: { title: axisTitle("horizontal distance from the base (mm)"), constrain: "domain" },
+        xaxis: { title: axisTitle("horizontal distance from the base (mm)"), constrain: "domain", constraintoward: "left" },
         yaxis: { title: axisTitle("height above the base (mm)"), scaleanchor: "x", constrain: "domain" },
         showlegend: true,
       },

@@ -84,7 +84,7 @@ export function orders(r: Simulate, s: Section): void {
   const layout = (title: string): Record<string, unknown> => ({
     barmode: "stack",
     bargap: 0.12,
-    xaxis: { title: axisTitle(title), type: title === "band" ? "category" : "linear" },
+    xaxis: { title: axisTitle(title), ...(title === "band" ? { type: "category" } : { dtick: 15 }) },
     yaxis: { title: axisTitle(unit), rangemode: "tozero" },
     legend: { orientation: "v", x: 1.01, y: 1, traceorder: "reversed" },
     showlegend: true,

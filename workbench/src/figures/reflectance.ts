@@ -7,7 +7,7 @@ import { bandColour, colour } from "../palette";
 import { mark, type Trace } from "../plot";
 import { errorLine } from "./errorbars";
 import { panelGrid, type Panel } from "./panels";
-import { bandName, planes } from "./view_angles";
+import { bandName, planes, type Plane } from "./view_angles";
 
 export const longNames: Record<string, string> = {
   brf: "BRF",
@@ -62,7 +62,13 @@ export function anglePanels(lines: Lines, columns = 2, barmode?: string): { heig
     { columns: Math.min(columns, n), xTitle: "signed view zenith angle (°), sun's side negative", yTitle: lines.yTitle, gapX: 0.09, gapY: 0.14, xaxis: { dtick: 15 }, yaxis: { rangemode: "tozero" } },
   );
   const marks = lines.groups.map((g, i) => hotSpots(g.series, grid.panels.slice(i, i + 1)));
-  const data = lines.groups.flatMap((g, i) => g.traces({ xaxis: grid.panels[i]?.x ?? "x", yaxis: grid.panels[i]?.y ?? "y", showlegend: i === 0 }));
+  const data = lines.groups.flatMap((g, i) => g.traces({ xaxis: grid.panels[i]?.x ?? "x", yaxis: grid.panels[i]?.y ?? "y" }));
+  // A name stands once in the legend; one name alone needs none.
+  const names = new Set<string>();
+  for (const trace of data) {
+    trace.showlegend = !names.has(trace.name ?? "");
+    names.add(trace.name ?? "");
+  }
   return {
     height: (grid.rows > 1 ? 300 : 370) * grid.rows + 80,
     data,
@@ -71,8 +77,7 @@ export function anglePanels(lines: Lines, columns = 2, barmode?: string): { heig
       ...(barmode ? { barmode } : {}),
       shapes: marks.flatMap((m) => m.shapes),
       annotations: [...grid.annotations, ...marks.flatMap((m) => m.annotations)],
-      showlegend: data.some((t) => t.showlegend === true),
-      legend: { orientation: "h", x: 0, y: -0.55 / (1.6 * grid.rows + 0.7), yanchor: "top" },
+      showlegend: names.size > 1,
     },
   };
 }
@@ -86,16 +91,17 @@ export function reflectance(r: Simulate, s: Section): void {
     const bands = byBand(chosen);
     if (bands.length === 0) continue;
     const sensors = new Set(chosen.map((x) => x.sensor)).size > 1;
+    const nameOf = (x: Series, plane: Plane): string => [sensors ? x.sensor : null, plane.name].filter(Boolean).join(", ") || quantityName(quantity);
+    const names = [...new Set(chosen.flatMap((x) => planes(x).map((plane) => nameOf(x, plane))))];
     const groups = bands.map((band, b) => ({
       title: band.name,
       series: band.series,
       traces: (at: Partial<Trace>): Trace[] => {
-        const lines = band.series.flatMap((x) => planes(x).map((plane) => ({ x, plane })));
-        return lines.map(({ x, plane }, i) => {
-          const name = [sensors ? x.sensor : null, plane.name].filter(Boolean).join(", ") || quantityName(quantity);
-          const c = lines.length === 1 ? bandColour(band.nm, b) : colour(i + 2);
+        const lines = band.series.flatMap((x) => planes(x).map((plane) => ({ name: nameOf(x, plane), plane })));
+        return lines.map(({ name, plane }) => {
+          const c = names.length === 1 ? bandColour(band.nm, b) : colour(names.indexOf(name) + 2);
           const samples = { x: plane.rows.map((p) => p.vza), y: plane.rows.map((p) => p.value), se: plane.rows.map((p) => p.se) };
-          return errorLine(samples, c, { ...at, name, legendgroup: name, showlegend: at.showlegend === true && lines.length > 1 });
+          return errorLine(samples, c, { ...at, name, legendgroup: name });
         });
       },
     }));

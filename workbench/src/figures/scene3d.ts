@@ -18,6 +18,15 @@ export interface SceneSpec {
 
 const noWebgl = "This browser cannot draw 3-D pictures (WebGL is missing or switched off).";
 
+// Enough points of the scene to fit a view to it.
+function samplePoints(spec: SceneSpec): THREE.Vector3[] {
+  const flat = spec.mesh?.positions ?? [];
+  const step = 3 * Math.max(1, Math.floor(flat.length / 9000));
+  const out = (spec.curves ?? []).flatMap((c) => c.points.map((p) => new THREE.Vector3(...p)));
+  for (let i = 0; i + 2 < flat.length; i += step) out.push(new THREE.Vector3(flat[i] ?? 0, flat[i + 1] ?? 0, flat[i + 2] ?? 0));
+  return out;
+}
+
 class Scene3d {
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(30, 1, 0.01, 100);
@@ -28,6 +37,7 @@ class Scene3d {
   private readonly start: THREE.Vector3;
   private colouring = 0;
   private lit: Part | null = null;
+  private readonly frame: THREE.Vector3[]; // what a view must hold
 
   constructor(
     private readonly view: HTMLElement,
@@ -38,7 +48,7 @@ class Scene3d {
     this.camera.up.set(0, 0, 1);
     const up = new THREE.Vector3(...(spec.up ?? [0, 0, 1])).normalize();
     this.content.quaternion.setFromUnitVectors(up, new THREE.Vector3(0, 0, 1));
-    this.start = new THREE.Vector3(...(spec.viewFrom ?? [0.75, -1, 0.42])).applyQuaternion(this.content.quaternion).normalize();
+    this.start = new THREE.Vector3(...(spec.viewFrom ?? [0.55, -1, 0.5])).applyQuaternion(this.content.quaternion).normalize();
     this.mesh = spec.mesh ? meshObject(spec.mesh) : null;
     if (this.mesh) {
       colourMesh(this.mesh, 0);
@@ -54,6 +64,8 @@ class Scene3d {
     this.box.setFromObject(this.content);
     const floor = ground(this.box);
     this.scene.add(floor.object);
+    const points = [...samplePoints(spec)].map((p) => p.applyQuaternion(this.content.quaternion));
+    this.frame = [...points, ...floor.corners];
     this.lights();
     this.controls = new OrbitControls(this.camera, renderer.domElement);
     this.controls.enableZoom = true;
@@ -61,8 +73,8 @@ class Scene3d {
     renderer.domElement.addEventListener("pointermove", (e) => this.point(e));
     renderer.domElement.addEventListener("pointerleave", () => this.light(null));
     new ResizeObserver(() => this.resize()).observe(view);
-    this.look(this.start);
     this.resize();
+    this.look(this.start);
   }
 
   private lights(): void {
@@ -88,10 +100,21 @@ class Scene3d {
   }
 
   look(direction: THREE.Vector3): void {
-    const radius = this.radius();
-    const centre = this.box.getCenter(new THREE.Vector3());
-    const half = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * Math.min(1, this.camera.aspect);
-    const distance = (1.08 * radius) / Math.sin(Math.atan(half));
+    const back = direction.clone().normalize();
+    const right = new THREE.Vector3().crossVectors(this.camera.up, back).normalize();
+    const over = new THREE.Vector3().crossVectors(back, right);
+    const middle = (axis: THREE.Vector3): number => {
+      const along = this.frame.map((p) => p.dot(axis));
+      return (Math.min(...along) + Math.max(...along)) / 2;
+    };
+    const centre = new THREE.Vector3();
+    for (const axis of [right, over, back]) centre.addScaledVector(axis, middle(axis));
+    const tanY = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
+    const need = this.frame.map((p) => {
+      const q = p.clone().sub(centre);
+      return q.dot(back) + Math.max(Math.abs(q.dot(right)) / (tanY * this.camera.aspect), Math.abs(q.dot(over)) / tanY);
+    });
+    const distance = 1.06 * Math.max(...need);
     this.camera.position.copy(centre).addScaledVector(direction.clone().normalize(), distance);
     this.camera.near = distance / 100;
     this.camera.far = distance * 10;
@@ -146,6 +169,16 @@ class Scene3d {
   }
 }
 
+function newRenderer(): THREE.WebGLRenderer | null {
+  if (!document.createElement("canvas").getContext("webgl2")) return null;
+  try {
+    // What is drawn stays in the buffer, so that printing and saving see it.
+    return new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  } catch {
+    return null;
+  }
+}
+
 // The element, and what starts the drawing once it is on the page.
 export function scene3d(spec: SceneSpec): { element: HTMLElement; start: () => void } {
   const view = h("div", { class: "scene" });
@@ -154,16 +187,13 @@ export function scene3d(spec: SceneSpec): { element: HTMLElement; start: () => v
   const bar = h("div", { class: "scenebar" });
   const element = h("div", { class: "sceneframe" }, view, tip, bar);
   const start = (): void => {
-    let renderer: THREE.WebGLRenderer;
-    try {
-      // What is drawn stays in the buffer, so that printing and saving see it.
-      renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    } catch {
+    const renderer = newRenderer();
+    if (!renderer) {
       view.style.height = "auto";
       view.append(h("p", { class: "absent" }, noWebgl));
       return;
     }
-    renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    renderer.setPixelRatio(Math.min(2, Math.max(1.5, window.devicePixelRatio)));
     renderer.setClearColor("#fbfbfa");
     renderer.shadowMap.enabled = true;
     renderer.shadowMap.type = THREE.PCFSoftShadowMap;
@@ -176,8 +206,8 @@ export function scene3d(spec: SceneSpec): { element: HTMLElement; start: () => v
     };
     button("reset", () => picture.reset());
     button("top", () => picture.look(new THREE.Vector3(0, -1e-4, 1)));
-    button("front", () => picture.look(new THREE.Vector3(0, -1, 0)));
-    button("side", () => picture.look(new THREE.Vector3(1, 0, 0)));
+    button("front", () => picture.look(new THREE.Vector3(0, -1, 0.03)));
+    button("side", () => picture.look(new THREE.Vector3(1, 0, 0.03)));
     if ((spec.colourings?.length ?? 0) > 1) {
       const select = h("select", {}, ...(spec.colourings ?? []).map((name, i) => h("option", { value: i }, name)));
       select.addEventListener("change", () => picture.colourBy(Number(select.value)));

@@ -26,6 +26,7 @@ export interface CurveSpec {
   label: string;
   colour: string;
   points: Point3[];
+  width?: number; // pixels
 }
 
 const unknownColour = "#9aa3ad";
@@ -86,20 +87,33 @@ function segments(positions: number[], colour: string, width: number): LineSegme
   return new LineSegments2(geometry, new LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: width }));
 }
 
-export function curveObject(c: CurveSpec, width = 3): THREE.Object3D | null {
+export function curveObject(c: CurveSpec): THREE.Object3D | null {
   if (c.points.length < 2) return null;
-  const object = segments(c.points.slice(1).flatMap((p, i) => [...(c.points[i] ?? p), ...p]), c.colour, width);
+  const object = segments(c.points.slice(1).flatMap((p, i) => [...(c.points[i] ?? p), ...p]), c.colour, c.width ?? 3);
   object.userData = { label: c.label };
   return object;
+}
+
+function disc(): THREE.Texture {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 32;
+  const context = canvas.getContext("2d");
+  if (context) {
+    context.fillStyle = "#ffffff";
+    context.arc(16, 16, 15, 0, 2 * Math.PI);
+    context.fill();
+  }
+  return new THREE.CanvasTexture(canvas);
 }
 
 export function dotObject(points: readonly Point3[], colour: string, size: number): THREE.Object3D {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(points.flat(), 3));
-  return new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, size, sizeAttenuation: false }));
+  return new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, size, sizeAttenuation: false, map: disc(), alphaTest: 0.5 }));
 }
 
-function textSprite(text: string, height: number): THREE.Sprite {
+// A label of one size on the screen, hanging from its position.
+function textSprite(text: string): THREE.Sprite {
   const canvas = document.createElement("canvas");
   canvas.width = 512;
   canvas.height = 128;
@@ -113,8 +127,9 @@ function textSprite(text: string, height: number): THREE.Sprite {
   }
   const texture = new THREE.CanvasTexture(canvas);
   texture.colorSpace = THREE.SRGBColorSpace;
-  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: texture, depthTest: false }));
-  sprite.scale.set(height * 4, height, 1);
+  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: texture, depthTest: false, sizeAttenuation: false }));
+  sprite.scale.set(0.092, 0.023, 1);
+  sprite.center.set(0.5, 1);
   return sprite;
 }
 
@@ -124,32 +139,31 @@ export function lengthLabel(metres: number): string {
   return `${significant(metres * 1000, 2).replace(/\.0+$/, "")} mm`;
 }
 
-// A square grid on the ground under the box, one cell of it marked as scale bar.
-export function ground(box: THREE.Box3): { object: THREE.Object3D; cell: number } {
+// A grid on the ground under the box, one cell of it marked as scale bar.
+export function ground(box: THREE.Box3): { object: THREE.Object3D; corners: THREE.Vector3[] } {
   const size = box.getSize(new THREE.Vector3());
-  const extent = Math.max(size.x, size.y, 0.35 * size.z, 1e-6) * 1.15;
+  const extent = Math.max(size.x, size.y, 0.3 * size.z, 1e-6);
   const cell = niceBelow(extent / 4);
-  const centre = box.getCenter(new THREE.Vector3());
-  const half = Math.ceil(extent / 2 / cell);
-  const x0 = Math.round(centre.x / cell) * cell;
-  const y0 = Math.round(centre.y / cell) * cell;
   const z = box.min.z;
-  const reach = half * cell;
+  const span = (low: number, high: number): [number, number] => {
+    const pad = Math.max(0, 0.4 * extent - (high - low)) / 2;
+    return [Math.floor((low - pad) / cell + 1e-6) * cell, Math.ceil((high + pad) / cell - 1e-6) * cell];
+  };
+  const [x0, x1] = span(box.min.x, box.max.x);
+  const [y0, y1] = span(box.min.y, box.max.y);
   const lines: number[] = [];
-  for (let i = -half; i <= half; ++i) {
-    lines.push(x0 + i * cell, y0 - reach, z, x0 + i * cell, y0 + reach, z);
-    lines.push(x0 - reach, y0 + i * cell, z, x0 + reach, y0 + i * cell, z);
-  }
+  for (let x = x0; x < x1 + cell / 2; x += cell) lines.push(x, y0, z, x, y1, z);
+  for (let y = y0; y < y1 + cell / 2; y += cell) lines.push(x0, y, z, x1, y, z);
   const object = new THREE.Group();
-  const shade = new THREE.Mesh(new THREE.PlaneGeometry(2 * reach, 2 * reach), new THREE.ShadowMaterial({ opacity: 0.18 }));
-  shade.position.set(x0, y0, z - 1e-3 * cell);
+  const shade = new THREE.Mesh(new THREE.PlaneGeometry(x1 - x0, y1 - y0), new THREE.ShadowMaterial({ opacity: 0.18 }));
+  shade.position.set((x0 + x1) / 2, (y0 + y1) / 2, z - 1e-3 * cell);
   shade.receiveShadow = true;
-  const y = y0 - reach - 0.22 * cell;
-  const bar = [x0 - reach, y, z, x0 - reach + cell, y, z];
-  const tick = 0.07 * cell;
-  const ends = [0, cell].flatMap((d) => [x0 - reach + d, y - tick, z, x0 - reach + d, y + tick, z]);
-  const text = textSprite(lengthLabel(cell), 0.3 * cell);
-  text.position.set(x0 - reach + cell / 2, y - 0.3 * cell, z);
-  object.add(shade, segments(lines, "#c9ced4", 1), segments([...bar, ...ends], ink, 2.5), text);
-  return { object, cell };
+  const y = y0 - 0.05 * extent;
+  const tick = 0.015 * extent;
+  const ends = [x0, x0 + cell].flatMap((x) => [x, y - tick, z, x, y + tick, z]);
+  const text = textSprite(lengthLabel(cell));
+  text.position.set(x0 + cell / 2, y - tick, z);
+  object.add(shade, segments(lines, "#c9ced4", 1), segments([x0, y, z, x0 + cell, y, z, ...ends], ink, 2.5), text);
+  const corners = [x0, x1].flatMap((x) => [y - 2 * tick, y1].map((w) => new THREE.Vector3(x, w, z)));
+  return { object, corners };
 }

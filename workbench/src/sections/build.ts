@@ -9,11 +9,14 @@ import { defineSection } from "./section";
 
 function parts(r: Build): Part[] {
   const materials = [...new Set(r.organs.map((o) => o.material))];
-  return r.organs.flatMap((o, i) => {
+  let leaves = 0;
+  return r.organs.flatMap((o) => {
     if (o.id === null) return [];
     const name = o.label ?? `organ ${o.id}`;
     const label = o.material === null ? name : `${name} (${o.material})`;
-    return [{ id: o.id, label, colours: [colour(i), materialColour(o.material, materials.indexOf(o.material))] }];
+    const material = materialColour(o.material, materials.indexOf(o.material));
+    const leafy = o.material === null || /leaf|blade/i.test(o.material);
+    return [{ id: o.id, label, colours: [leafy ? colour(leaves++) : material, material] }];
   });
 }
 

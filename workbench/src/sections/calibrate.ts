@@ -3,7 +3,7 @@
 import type { Section } from "../book";
 import { calibrate as read, type Calibrate } from "../data";
 import { errorsByView, quiverByCamera, residualScatter } from "../figures/calibration";
-import { count, length, missing, percent, plural, significant, withSigma } from "../format";
+import { count, fixed, length, missing, percent, plural, significant, withSigma } from "../format";
 import { defineSection } from "./section";
 
 type Camera = Calibrate["cameras"][number];
@@ -54,14 +54,14 @@ function parameterTable(r: Calibrate, s: Section): void {
 }
 
 function pairTable(r: Calibrate, s: Section): void {
-  const vector = (v: readonly (number | null)[], scale: number, digits: number): string =>
-    v.length === 0 ? missing : v.map((x) => significant(x === null ? null : x * scale, digits)).join(", ");
+  const vector = (v: readonly (number | null)[], scale: number, decimals: number): string =>
+    v.length === 0 ? missing : v.map((x) => fixed(x === null ? null : x * scale, decimals)).join(", ");
   s.table(
     [
       { head: "pair", text: true, cell: (p) => `${p.a ?? "?"} – ${p.b ?? "?"}` },
       { head: "baseline", cell: (p) => length(p.baseline_m, bestSigma(p)) },
       { head: "rotation vector", unit: "°", cell: (p) => vector(p.rotation_deg, 1, 4) },
-      { head: "translation", unit: "mm", cell: (p) => vector(p.translation_m, 1000, 5) },
+      { head: "translation", unit: "mm", cell: (p) => vector(p.translation_m, 1000, 2) },
     ],
     r.pairs,
     "Stereo pairs: pose of the second camera as seen from the first.",

@@ -74,13 +74,24 @@ function angular(r: Describe, s: Section): void {
   }
   const gaps = r.gap_fraction.filter((p) => p.zenith_deg !== null && p.p !== null);
   if (gaps.length > 0) {
+    const random = randomGaps(r);
     const samples = { x: gaps.map((p) => p.zenith_deg), y: gaps.map((p) => p.p), se: gaps.map((p) => p.standard_error) };
     s.plot(
       "gap",
-      { height: 360, data: [errorLine(samples, colour(0))], layout: layout("gap fraction P(θ)", [0, 1.02]) },
-      "Gap fraction: the share of rays from the zenith angle θ that reach the ground. Bars are ±1.96 standard errors.",
+      { height: 360, data: [...random, errorLine(samples, colour(0), { name: "this canopy" })], layout: { ...layout("gap fraction P(θ)"), showlegend: random.length > 0 } },
+      "Gap fraction: the share of rays from the zenith angle θ that reach the ground. Bars are ±1.96 standard errors." +
+        (random.length > 0 ? " The dotted line is exp(−G(θ) LAI / cos θ), the gap fraction of the same area scattered at random." : ""),
     );
   }
+}
+
+// Beer's law with the report's own G and leaf area index.
+function randomGaps(r: Describe): Trace[] {
+  const lai = r.lai;
+  const g = r.g_function.filter((p) => p.g !== null && p.zenith_deg !== null && p.zenith_deg < 89.9);
+  if (lai === null || g.length < 3) return [];
+  const y = g.map((p) => Math.exp((-(p.g ?? 0) * lai) / Math.cos(((p.zenith_deg ?? 0) * Math.PI) / 180)));
+  return [{ type: "scatter", mode: "lines", name: "random positions", x: g.map((p) => p.zenith_deg), y, line: { color: "#6b7280", width: 1.3, dash: "dot" }, hoverinfo: "skip" }];
 }
 
 function tables(r: Describe, s: Section): void {

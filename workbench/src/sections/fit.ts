@@ -3,17 +3,17 @@
 import type { Section } from "../book";
 import { fit as read, type Fit } from "../data";
 import { functionPanels, midribs } from "../figures/organ_functions";
-import { count, length, missing, percent, plural, significant } from "../format";
+import { count, fixed, length, missing, percent, plural, significant } from "../format";
 import { organs, type Organs } from "../organs";
 import { defineSection } from "./section";
 
-// The organs the functions letter their kinds by.
-const kindNames: Record<string, string> = { n: "linear", p: "polynomial", f: "Fourier", s: "spline" };
-
-export function kindName(kind: string | null, order: number | null): string {
+// As on the command line: p:3 is a polynomial of degree 3.
+function kindName(kind: string | null, order: number | null): string {
   if (kind === null) return missing;
-  return [kindNames[kind] ?? kind, order === null ? null : count(order)].filter((s) => s !== null).join(" ");
+  return order === null ? kind : `${kind}:${order}`;
 }
+
+const kinds = "p:K is a polynomial of degree K, f:K has K harmonics, n:K and s:K have K knots.";
 
 function organTable(r: Fit, names: Organs, s: Section): void {
   const functions = [...new Set(r.organs.flatMap((o) => Object.keys(o.functions)))];
@@ -36,7 +36,7 @@ function organTable(r: Fit, names: Organs, s: Section): void {
       })),
     ],
     r.organs,
-    "Each organ with the functions that the evidence (AICc) chose. The rms is that of the residual at equal normalised arc length.",
+    "Each organ with the functions that the evidence (AICc) chose. The rms is that of the residual at equal normalised arc length. " + kinds,
   );
 }
 
@@ -46,21 +46,21 @@ function evidence(r: Fit, names: Organs, s: Section): void {
     const best = Math.min(...known.map((a) => a.aicc ?? Infinity));
     return known.map((a) => ({ o, kind: kindName(a.kind, a.order), delta: (a.aicc ?? 0) - best }));
   });
-  const kinds = [...new Set(rows.map((row) => row.kind))];
+  const tried = [...new Set(rows.map((row) => row.kind))];
   const withTable = r.organs.filter((o) => o.aicc_table.length > 0);
   s.table(
     [
       { head: "organ", text: true, cell: (o) => names.name(o) },
-      ...kinds.map((kind) => ({
+      ...tried.map((kind) => ({
         head: kind,
         cell: (o: Fit["organs"][number]) => {
           const row = rows.find((q) => q.o === o && q.kind === kind);
-          return row ? significant(row.delta, 3) : missing;
+          return row ? fixed(row.delta, 1) : missing;
         },
       })),
     ],
     withTable,
-    "ΔAICc of the functions that were tried, against the best of each organ (0). A difference above 10 leaves little doubt.",
+    "ΔAICc of the functions that were tried, against the best of each organ (0). A difference above 10 leaves little doubt. " + kinds,
   );
 }
 

@@ -34,11 +34,11 @@ function space(r: Reconstruct, names: Organs, s: Section): void {
   const [x, y, z] = r.vertical_m;
   const vertical: Point3 | null = typeof x === "number" && typeof y === "number" && typeof z === "number" ? [x, y, z] : null;
   const scene = scene3d({
-    curves: used.map(({ c, points }) => ({ label: names.full(c), colour: names.colour(c), points })),
-    dots: used.map(({ c, points }) => ({ points, colour: names.colour(c), size: 6 })),
+    curves: used.map(({ c, points }) => ({ label: names.full(c), colour: names.colour(c), points, width: /midrib|axis/.test(c.feature ?? "axis") ? 3 : 1.3 })),
+    dots: used.map(({ c, points }) => ({ points, colour: names.colour(c), size: 5 })),
     up: vertical ?? [0, -1, 0],
     viewFrom: vertical ? [vertical[0] * 0.35 + 0.1, vertical[1] * 0.35, vertical[2] * 0.35 - 1] : [0.25, -0.35, -1],
-    height: 480,
+    height: 540,
   });
   s.figure("curves", scene.element, `The curves in space, seen from the side of the cameras${vertical ? "; the vertical is the measured one" : "; up is the first camera's up"}.`, scene.start);
 }
@@ -65,7 +65,7 @@ function checkFigure(r: Reconstruct, s: Section): void {
         barmode: "stack",
         bargap: 0.04,
         xaxis: { title: axisTitle("|ΔZ| / σ"), range: [0, top] },
-        yaxis: { title: axisTitle("points") },
+        yaxis: { title: axisTitle("points"), range: [0, 1.18 * Math.max(...good.counts.map((n, i) => n + (bad.counts[i] ?? 0)))] },
         shapes: line ? [line.shape] : [],
         annotations: line ? [line.annotation] : [],
         legend: { x: 1, xanchor: "right", y: 1, yanchor: "top", orientation: "v" },
