@@ -16,6 +16,7 @@ using bpms::Cli;
 
 constexpr void (*verbs[])(Cli&) = {
     bpms::add_check,
+    bpms::add_calibrate,
 };
 
 int parse_and_run(Cli& cli, int argc, char** argv) {

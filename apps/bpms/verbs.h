@@ -4,4 +4,5 @@
 namespace bpms {
 struct Cli;
 void add_check(Cli& cli);
+void add_calibrate(Cli& cli);
 }  // namespace bpms
