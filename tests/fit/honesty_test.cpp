@@ -49,7 +49,7 @@ Statistics run(const SyntheticNoise& noise) {
     };
     count("length", fit.length_m - leaf.organ.length_m, fit.length_sigma_m);
     count("direction", fit.direction - leaf.direction, fit.direction_sigma);
-    const double l = 0.1 * (1 + k % 9);
+    const double l = 0.1 * (1 + k % 9) + 0.03;  // not in the middle, where this azimuth is zero by its gauge
     for (const auto& [name, function] : truth) {
       const FittedFunction& fitted = fit.functions.at(name);
       count(name, fitted.value(l) - function.second * function.first->value(l), fitted.sigma(l));
