@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "core/records.h"
 #include "core/text.h"
+#include "plant/canopy.h"
 #include "plant/plant.h"
 
 namespace bpms {
@@ -22,7 +23,14 @@ bool first_line_has(std::string_view head, std::string_view word) {
 std::string check_plant(const std::string& path) {
   const Plant plant = read_plant(path);
   for (const std::string& warning : plant.warnings) note(warning);
-  return fmt::format("{} organs, {} blocks, {} notes", place_organs(plant).size(), plant.blocks.size(), plant.warnings.size());
+  return fmt::format("{} organs, {} blocks, {} notes", place_organs(plant).size(), plant.blocks.size(),
+                     plant.warnings.size());
+}
+
+std::string check_canopy(const std::string& path) {
+  const Canopy canopy = read_canopy(path);
+  for (const std::string& text : canopy.notes) note(text);
+  return fmt::format("{} plants from {} plant files", canopy.placements.size(), canopy.plants.size());
 }
 
 const std::vector<FileKind>& kinds() {
@@ -33,7 +41,13 @@ const std::vector<FileKind>& kinds() {
        }},
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
-      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
+      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
+       check_plant},
+      {"canopy.toml",
+       [](const std::string& path, std::string_view head) {
+         return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
+       },
+       check_canopy},
   };
   return table;
 }
