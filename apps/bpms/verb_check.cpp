@@ -41,7 +41,7 @@ const std::vector<FileKind>& kinds() {
        }},
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
-      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
+      {"plant.bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
        check_plant},
       {"canopy.toml",
        [](const std::string& path, std::string_view head) {
