@@ -96,8 +96,8 @@ TEST_F(CanopyTest, OpenRowsAreCutAtTheBorder) {
       read("pattern = \"rows\"\nrow_spacing_m = 0.2\nrow_azimuth_deg = 90\nspacing_in_row_m = 0.05",
            "size_m = [2, 1]\nboundary = \"open\"");
   EXPECT_THAT(canopy.notes, IsEmpty());
-  EXPECT_EQ(canopy.placements.size(), 6u * 40u);  // at +-0.1, 0.3, 0.5
-  EXPECT_EQ(by_row(canopy, {0, 1}, 0.2, 0.1).size(), 6u);
+  EXPECT_EQ(canopy.placements.size(), 5u * 40u);  // at 0, +-0.2, +-0.4
+  EXPECT_EQ(by_row(canopy, {0, 1}, 0.2, 0.0).size(), 5u);
 }
 
 TEST_F(CanopyTest, SpacingsHaveTheStatedSpread) {
@@ -254,9 +254,9 @@ TEST_F(CanopyTest, TheSeedDecides) {
 
 TEST_F(CanopyTest, ErrorsNameTheKey) {
   BPMS_EXPECT_ERROR(read("pattern = \"row\"\n"), bad_input,
-                    "canopy.toml:6:11: planting.pattern: unknown 'row'; did you mean 'rows'?");
+                    "canopy.toml:7:11: planting.pattern: unknown 'row'; did you mean 'rows'?");
   BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9\ndepht_m = 1"), bad_input,
-                    "canopy.toml:8:1: unknown key 'depht_m'; did you mean 'depth_m'?");
+                    "canopy.toml:9:1: unknown key 'depht_m'; did you mean 'depth_m'?");
   BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9\nrow_spacing_m = 1"), bad_input,
                     "unknown key 'row_spacing_m'");
   BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 0.01"), bad_input, "expected at least one");
@@ -272,7 +272,7 @@ TEST_F(CanopyTest, ErrorsNameTheKey) {
   BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9", "size_m = [0, 1]"), bad_input,
                     "expected two lengths above 0");
   BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9\n[terrain]\ndem = \"x.tif\""), bad_input,
-                    "canopy.toml:8:1: terrain: terrain is not built yet");
+                    "canopy.toml:9:1: terrain: terrain is not built yet");
   BPMS_EXPECT_ERROR(
       read("pattern = \"random\"\ndensity_per_m2 = 9", "size_m = [1, 1]", "scale = { mean = 1, sd = 0.4 }"),
       bad_input, "reach zero within 3 sd");

@@ -55,7 +55,7 @@ TEST(PlantLanguage, ReadsUnitsCommentsAndTightLayouts) {
                        .blocks[0]
                        .attributes.length_m,
                    5);
-  const Plant plant = parse("[s [+l(3)] [ + l( 4 ) ]\n s h]\nl(5){" + leaf + "}", false);
+  const Plant plant = parse("[s [+l(3)] [ + l( 4 ) ]\n s h]\nl 5{" + leaf + "}", false);
   EXPECT_EQ(word_of(plant), "[s[+l(3)][+l(4)]sh]");
 }
 
@@ -205,7 +205,7 @@ TEST(PlantLanguage, TheExamplesRead) {
 
 TEST(PlantLanguage, WritesTheCanonicalText) {
   const Plant plant = parse(
-      "# c\n[s[+l(2)]]s{a_radius 0.1 a_length 12.0}l 2{f_twist f 10 -10 a_width 1.2 a_length 25 material "
+      "# c\n[s[+l(2)]] s{a_radius 0.1 a_length 12.0} l 2{f_twist f 10 -10 a_width 1.2 a_length 25 material "
       "leaf}+ 1 {a_twist 180}");
   EXPECT_EQ(plant_text(plant),
             "units cm\n[s[+l(2)]]\ns {\n  a_length 12\n  a_radius 0.1\n}\nl 2 {\n  material leaf\n  a_length "

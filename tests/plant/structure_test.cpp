@@ -85,7 +85,7 @@ TEST(Structure, GOfTrianglesIsTheDirectSum) {
       plant_mesh(read_plant(std::string(BPMS_SOURCE_DIR) + "/examples/plants/grass.bpms"), {1e-3});
   for (const double zenith_deg : {0.0, 30.0, 57.5, 85.0}) {
     double projected = 0, area = 0;
-    constexpr int azimuths = 720;
+    constexpr int azimuths = 3600;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.organs[mesh.organ_of_triangle[t]].kind != "leaf") continue;
       const auto& [a, b, c] = mesh.triangles[t];
@@ -102,7 +102,7 @@ TEST(Structure, GOfTrianglesIsTheDirectSum) {
       area += n.norm();
     }
     const FacetStructure structure = facet_structure({{&mesh, 1, 1}}, {zenith_deg});
-    EXPECT_NEAR(structure.g_function[0].g, projected / area, 1e-5) << zenith_deg;
+    EXPECT_NEAR(structure.g_function[0].g, projected / area, 1e-6) << zenith_deg;
     EXPECT_NEAR(structure.total_leaf_area_m2, area, 1e-12);
   }
 }
