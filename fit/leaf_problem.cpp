@@ -119,10 +119,10 @@ std::optional<LeafProblem> leaf_problem(const MeasuredOrgan& organ, const FitOpt
   for (std::size_t k = 0; k < organ.midrib.size(); ++k) {
     LeafObservation o = observation(organ.midrib[k], LeafCurve::midrib, out);
     o.l = arc[k] / arc.back();
-    o.place_free = k > 0 && k + 1 < organ.midrib.size();
+    o.place_free = out.errors_known && k > 0 && k + 1 < organ.midrib.size();
     out.midrib.push_back(o);
   }
-  if (options.anchor_base) {
+  if (options.anchor_base || !out.errors_known) {
     out.base = out.midrib.front().x;
     out.midrib.front().weight = 0;
   } else {

@@ -6,6 +6,8 @@
 #include "apps/bpms/file_kinds.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
+#include "calibrate/rig.h"
+#include "calibrate/target.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/records.h"
@@ -48,6 +50,16 @@ const std::vector<FileKind>& kinds() {
          return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
        },
        check_canopy},
+      {"rig.toml",
+       [](const std::string&, std::string_view head) {
+         return head.find("[[cameras]]") != std::string_view::npos;
+       },
+       [](const std::string& path) { return fmt::format("{} cameras", read_rig(path).cameras.size()); }},
+      {"board.toml",
+       [](const std::string&, std::string_view head) {
+         return head.find("square_m") != std::string_view::npos;
+       },
+       [](const std::string& path) { return fmt::format("{} corners", read_board(path).size()); }},
   };
   return table;
 }
