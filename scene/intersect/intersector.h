@@ -19,6 +19,9 @@ struct SurfaceId {
   std::uint32_t primitive = 0xffffffffu;
 };
 
+// The ground plane's own name: a ray that starts on the ground.
+inline constexpr SurfaceId ground_surface{0, 2, 0};
+
 struct Ray {
   Eigen::Vector3f origin;
   Eigen::Vector3f direction;
@@ -46,7 +49,6 @@ struct IntersectorOptions {
   // Prototypes that stand more than once are instanced when all their instances have more primitives than
   // this.
   std::uint64_t flatten_below = 100'000;
-  double margin_m = -1;  // of copies kept around a periodic cell; negative: chosen
 };
 
 class Intersector {
