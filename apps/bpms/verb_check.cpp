@@ -9,14 +9,22 @@
 #include "calibrate/rig.h"
 #include "calibrate/target.h"
 #include "core/error.h"
+#include "core/progress.h"
 #include "core/records.h"
 #include "core/text.h"
+#include "plant/plant.h"
 
 namespace bpms {
 namespace {
 
 bool first_line_has(std::string_view head, std::string_view word) {
   return head.substr(0, head.find('\n')).find(word) != std::string_view::npos;
+}
+
+std::string check_plant(const std::string& path) {
+  const Plant plant = read_plant(path);
+  for (const std::string& warning : plant.warnings) note(warning);
+  return fmt::format("{} organs, {} blocks, {} notes", place_organs(plant).size(), plant.blocks.size(), plant.warnings.size());
 }
 
 const std::vector<FileKind>& kinds() {
@@ -27,6 +35,7 @@ const std::vector<FileKind>& kinds() {
        }},
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
+      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
       {"rig.toml",
        [](const std::string&, std::string_view head) {
          return head.find("[[cameras]]") != std::string_view::npos;
