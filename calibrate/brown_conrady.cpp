@@ -1,5 +1,7 @@
 #include "calibrate/brown_conrady.h"
 
+#include <ceres/jet.h>
+
 #include <array>
 #include <cstddef>
 
@@ -72,6 +74,30 @@ bool monotone_up_to(const double* parameters, int count, double s) {
   Polynomial slope{};
   for (std::size_t i = 0; i <= degree; ++i) slope[i] = nd[i] + 2 * (dn[i] - nd1[i]);
   return positive_up_to(slope, s);
+}
+
+std::optional<Derivatives> project_with_derivatives(const double* parameters, int count,
+                                                    const Eigen::Vector3d& x_cam) {
+  if (!(x_cam.z() > 0)) return std::nullopt;
+  if (!monotone_up_to(parameters, count, x_cam.head<2>().squaredNorm() / (x_cam.z() * x_cam.z())))
+    return std::nullopt;
+  constexpr int most = 12;
+  using Dual = ceres::Jet<double, most + 3>;
+  std::array<Dual, most> p;
+  for (int i = 0; i < count; ++i) p[static_cast<std::size_t>(i)] = Dual(parameters[i], i);
+  const std::array<Dual, 3> x{Dual(x_cam.x(), most), Dual(x_cam.y(), most + 1), Dual(x_cam.z(), most + 2)};
+  std::array<Dual, 2> pixel;
+  project(p.data(), count, x.data(), pixel.data());
+  Derivatives out;
+  out.by_parameters.resize(2, count);
+  for (int row = 0; row < 2; ++row) {
+    const Dual& q = pixel[static_cast<std::size_t>(row)];
+    out.pixel[row] = q.a;
+    out.by_parameters.row(row) = q.v.head(count).transpose();
+    out.by_x_cam.row(row) = q.v.tail<3>().transpose();
+  }
+  if (!out.pixel.allFinite()) return std::nullopt;
+  return out;
 }
 
 }  // namespace bpms::brown_conrady

@@ -4,6 +4,8 @@
 //   u = fx x' + cx,  v = fy y' + cy
 // Brown 1966, Conrady 1919; the rational form is OpenCV's. Pixel centres are integers.
 #pragma once
+#include <Eigen/Core>
+#include <optional>
 
 namespace bpms::brown_conrady {
 
@@ -37,5 +39,15 @@ void project(const T* parameters, int count, const T* x_cam, T* pixel) {
 // True when the radial distortion rises strictly from the axis to the radius x^2 + y^2 = s, with no pole on
 // the way: then no two rays up to there share a distorted radius.
 bool monotone_up_to(const double* parameters, int count, double s);
+
+// The pixel of a point in the camera's frame and its derivatives; nullopt behind the camera or outside the
+// monotone region.
+struct Derivatives {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 3> by_x_cam;
+  Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 12> by_parameters;
+};
+std::optional<Derivatives> project_with_derivatives(const double* parameters, int count,
+                                                    const Eigen::Vector3d& x_cam);
 
 }  // namespace bpms::brown_conrady

@@ -64,30 +64,16 @@ std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector
 
 std::optional<Projection> project_with_derivatives(const Camera& camera, const Eigen::Vector3d& x_rig) {
   const Eigen::Vector3d rotated = camera.r_cam_from_rig * x_rig, x_cam = rotated + camera.t_cam_from_rig_m;
-  if (!project(camera, x_cam)) return std::nullopt;
-  constexpr int most = 12;
-  using Dual = ceres::Jet<double, most + 3>;
-  const int count = parameter_count(camera);
-  std::array<Dual, most> parameters;
-  for (int i = 0; i < count; ++i)
-    parameters[static_cast<std::size_t>(i)] = Dual(camera.parameters[static_cast<std::size_t>(i)], i);
-  const std::array<Dual, 3> x{Dual(x_cam.x(), most), Dual(x_cam.y(), most + 1), Dual(x_cam.z(), most + 2)};
-  std::array<Dual, 2> pixel;
-  brown_conrady::project(parameters.data(), count, x.data(), pixel.data());
-
+  const auto local =
+      brown_conrady::project_with_derivatives(camera.parameters.data(), parameter_count(camera), x_cam);
+  if (!local) return std::nullopt;
   Projection out;
-  out.by_parameters.resize(2, count);
-  Eigen::Matrix<double, 2, 3> by_x_cam;
-  for (int row = 0; row < 2; ++row) {
-    const Dual& q = pixel[static_cast<std::size_t>(row)];
-    out.pixel[row] = q.a;
-    out.by_parameters.row(row) = q.v.head(count).transpose();
-    by_x_cam.row(row) = q.v.tail<3>().transpose();
-  }
-  out.by_point = by_x_cam * camera.r_cam_from_rig;
+  out.pixel = local->pixel;
+  out.by_parameters = local->by_parameters;
+  out.by_point = local->by_x_cam * camera.r_cam_from_rig;
   Eigen::Matrix3d cross;  // d(exp(w) a)/dw = -[a]x at w = 0
   cross << 0, -rotated.z(), rotated.y(), rotated.z(), 0, -rotated.x(), -rotated.y(), rotated.x(), 0;
-  out.by_pose << -by_x_cam * cross, by_x_cam;
+  out.by_pose << -local->by_x_cam * cross, local->by_x_cam;
   return out;
 }
 

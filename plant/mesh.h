@@ -16,11 +16,11 @@ struct Mesh {
   std::vector<std::uint32_t> organ_of_triangle;  // index into organs
   struct Organ {
     int id = 0;
-    std::string label;     // "l3"
-    std::string kind;      // "leaf"
+    std::string label;  // "l3"
+    std::string kind;   // "leaf"
     std::string material;
     double length_m = 0;
-    double area_m2 = 0;    // one-sided for leaves, total surface for the rest
+    double area_m2 = 0;  // one-sided for leaves, total surface for the rest
   };
   std::vector<Organ> organs;
 };

@@ -1,6 +1,7 @@
-// The noun of the plant floor: a plant as a readable text (.bpms), its topology and the functions of its organs.
-// Source: Lewis 1999 (BPMS paper) section 2; what the paper leaves open is decided in docs/plant_language.md.
-// Frame: x east, y north, z up; lengths in metres and angles in radians here, the user's units only in the text.
+// The noun of the plant floor: a plant as a readable text (.bpms), its topology and the functions of its
+// organs. Source: Lewis 1999 (BPMS paper) section 2; what the paper leaves open is decided in
+// docs/plant_language.md. Frame: x east, y north, z up; lengths in metres and angles in radians here, the
+// user's units only in the text.
 #pragma once
 #include <Eigen/Geometry>
 #include <memory>
@@ -24,8 +25,9 @@ struct OrganAttributes {
   double width_m = 0;
   double radius_m = 0;
   double inclination = 0, azimuth = 0, twist = 0;  // the constants a_..., applied before the functions
-  std::unique_ptr<OrganFunction> f_inclination, f_azimuth, f_twist, f_curvature;  // of l in [0,1], values in radians
-  std::unique_ptr<OrganFunction> f_width;                                         // times width; absent = 1
+  std::unique_ptr<OrganFunction> f_inclination, f_azimuth, f_twist,
+      f_curvature;                         // of l in [0,1], values in radians
+  std::unique_ptr<OrganFunction> f_width;  // times width; absent = 1
   OrganAttributes();
   OrganAttributes(const OrganAttributes&);
   OrganAttributes& operator=(const OrganAttributes&);
@@ -56,7 +58,8 @@ struct Plant {
   std::string unit = "cm";  // of the text it was read from; files are written in it
   std::vector<Symbol> word;
   std::vector<Block> blocks;
-  std::vector<std::string> warnings;  // located notes: blocks nothing uses, organs without a block, ambiguous numbers
+  std::vector<std::string>
+      warnings;  // located notes: blocks nothing uses, organs without a block, ambiguous numbers
 };
 
 struct PlantReadOptions {
@@ -66,8 +69,8 @@ Plant read_plant(const std::string& path, const PlantReadOptions& options = {});
 Plant parse_plant(const std::string& path, std::string_view text, const PlantReadOptions& options = {});
 std::string plant_text(const Plant& plant);
 
-// An organ placed in the plant's frame: `base` maps the organ's own frame (x to the downward-facing side, y across, z
-// along) to the plant's, constants a_... already applied.
+// An organ placed in the plant's frame: `base` maps the organ's own frame (x to the downward-facing side, y
+// across, z along) to the plant's, constants a_... already applied.
 struct PlacedOrgan {
   int symbol = 0;  // index into Plant::word
   int id = 0;      // 0.. in order of the word, rotations not counted

@@ -1,0 +1,120 @@
+#include "fit/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+
+namespace bpms {
+namespace {
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json points(const std::vector<Eigen::Vector3d>& list) {
+  Json out = Json::array();
+  for (const Eigen::Vector3d& p : list) out.push_back({number(p.x()), number(p.y()), number(p.z())});
+  return out;
+}
+
+Json function(const FittedFunction& f, bool angle) {
+  const double unit = angle ? degrees(1) : 1.0;
+  Json coefficients = Json::array(), sigma = Json::array(), l = Json::array(), value = Json::array(), band = Json::array();
+  for (Eigen::Index k = 0; k < f.coefficients.size(); ++k) {
+    coefficients.push_back(number(unit * f.coefficients[k]));
+    sigma.push_back(number(unit * std::sqrt(f.covariance(k, k))));
+  }
+  constexpr int steps = 40;
+  for (int k = 0; k <= steps; ++k) {
+    const double at = static_cast<double>(k) / steps;
+    l.push_back(at);
+    value.push_back(number(unit * f.value(at)));
+    band.push_back(number(unit * f.sigma(at)));
+  }
+  return {{"kind", std::string(1, f.choice.code)}, {"order", f.choice.order}, {"unit", angle ? "degree" : "m"},
+          {"coefficients", coefficients}, {"sigma", sigma}, {"aicc", number(f.aicc)},
+          {"curve", {{"l", l}, {"value", value}, {"sigma", band}}}};
+}
+
+Json aicc_table(const OrganFit& fit) {
+  Json out = Json::object();
+  for (const auto& [name, rows] : fit.aicc_table) {
+    Json table = Json::array();
+    for (const auto& [choice, aicc] : rows)
+      table.push_back({{"kind", std::string(1, choice.code)}, {"order", choice.order}, {"aicc", number(aicc)}});
+    if (!table.empty()) out[name] = table;
+  }
+  return out;
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const double at = q * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
+Json organ(const OrganFit& fit) {
+  Json out{{"id", nullptr}, {"plant", fit.measured.plant}, {"axis", fit.measured.axis}, {"rank", fit.measured.rank},
+           {"organ", fit.measured.organ}, {"key", fit.measured.key}, {"points", fit.measured.midrib.size()}};
+  if (!fit.ok()) {
+    for (const char* key : {"length_m", "length_sigma_m", "rms_m", "rms_fraction", "chi2_per_dof"}) out[key] = nullptr;
+    out["functions"] = Json::object();
+    out["failure"] = fit.failure;
+    out["points_m"] = points(fit.points_m);
+    return out;
+  }
+  out["length_m"] = number(fit.length_m);
+  out["length_sigma_m"] = number(fit.length_sigma_m);
+  out["rms_m"] = number(fit.rms_m);
+  out["rms_fraction"] = number(fit.rms_m / fit.length_m);
+  out["chi2_per_dof"] = fit.chi2_per_dof ? number(*fit.chi2_per_dof) : Json(nullptr);
+  out["degrees_of_freedom"] = fit.degrees_of_freedom;
+  out["point_sigma_m"] = fit.errors_known ? Json(nullptr) : number(fit.sigma_m);
+  out["direction_deg"] = number(degrees(fit.direction));
+  out["direction_sigma_deg"] = number(degrees(fit.direction_sigma));
+  out["base_m"] = {number(fit.base_m.x()), number(fit.base_m.y()), number(fit.base_m.z())};
+  out["base_sigma_m"] = {number(std::sqrt(fit.base_covariance_m2(0, 0))), number(std::sqrt(fit.base_covariance_m2(1, 1))),
+                         number(std::sqrt(fit.base_covariance_m2(2, 2)))};
+  out["width_m"] = number(fit.width_m);
+  out["width_sigma_m"] = number(fit.width_sigma_m);
+  out["edges_swapped"] = fit.edges_swapped;
+  out["outliers"] = fit.outliers;
+  out["notes"] = fit.notes;
+  Json functions = Json::object();
+  for (const auto& [name, f] : fit.functions) functions[name] = function(f, name != "width");
+  out["functions"] = functions;
+  out["aicc_table"] = aicc_table(fit);
+  out["points_m"] = points(fit.points_m);
+  out["fitted_m"] = points(fit.fitted_m);
+  return out;
+}
+
+}  // namespace
+
+Json fit_report(const std::vector<OrganFit>& fits, const std::vector<FittedPlant>& plants) {
+  Json organs = Json::array(), plant_list = Json::array();
+  std::vector<double> fractions;
+  int failed = 0;
+  for (const OrganFit& fit : fits) {
+    organs.push_back(organ(fit));
+    if (fit.ok()) fractions.push_back(fit.rms_m / fit.length_m);
+    else ++failed;
+  }
+  for (const FittedPlant& plant : plants) {
+    plant_list.push_back({{"name", plant.plant.name}, {"organs", plant.organs.size()},
+                          {"origin_m", {plant.origin_m.x(), plant.origin_m.y(), plant.origin_m.z()}}});
+    for (std::size_t id = 0; id < plant.organs.size(); ++id) {
+      Json& entry = organs[plant.organs[id]];
+      entry["id"] = id;
+      const Eigen::Vector3d offset = fits[plant.organs[id]].base_m - plant.origin_m;
+      entry["base_offset_m"] = {offset.x(), offset.y(), offset.z()};
+    }
+  }
+  return {{"organs", organs}, {"plants", plant_list},
+          {"summary", {{"organs", fits.size()}, {"rms_fraction_median", number(quantile(fractions, 0.5))},
+                       {"rms_fraction_p90", number(quantile(fractions, 0.9))}, {"failed", failed}}}};
+}
+
+}  // namespace bpms

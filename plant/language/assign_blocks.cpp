@@ -1,0 +1,103 @@
+// Which block shapes which organ: block "l n" belongs to the leaves labelled n if there are any, else to the
+// n-th leaf counting all of them; a block without a number to all leaves that have no block of their own.
+#include <map>
+#include <set>
+
+#include "plant/language/parse.h"
+
+namespace bpms {
+namespace {
+
+std::string name(const Symbol& symbol) {
+  return symbol.label ? fmt::format("{}({})", letter(symbol.kind), *symbol.label)
+                      : fmt::format("{} {}", organ_name(symbol.kind), symbol.ordinal);
+}
+
+void note(Plant& plant, const SourceLocation& where, const std::string& message) {
+  plant.warnings.push_back(where.str() + ": " + message);
+}
+
+using Key = std::pair<OrganKind, int>;
+
+void note_ambiguous_numbers(Plant& plant) {
+  std::map<Key, const Symbol*> by_ordinal;
+  for (const Symbol& symbol : plant.word) {
+    if (symbol.type == Symbol::Type::organ) by_ordinal[{symbol.kind, symbol.ordinal}] = &symbol;
+  }
+  std::set<Key> told;
+  for (const Symbol& symbol : plant.word) {
+    if (!symbol.label || !told.insert({symbol.kind, *symbol.label}).second) continue;
+    const auto other = by_ordinal.find({symbol.kind, *symbol.label});
+    if (other == by_ordinal.end() || other->second->label == symbol.label) continue;
+    note(plant, symbol.where,
+         fmt::format("{} is a label here and also the ordinal of another {} (line {}, column {}); the block "
+                     "'{} {}' belongs to the label",
+                     *symbol.label, organ_name(symbol.kind), other->second->where.line,
+                     other->second->where.column, letter(symbol.kind), *symbol.label));
+  }
+}
+
+void note_sizes(Plant& plant, const Block& block) {
+  const OrganAttributes& a = block.attributes;
+  const std::string organ = organ_name(block.kind);
+  constexpr double long_leaf_m = 1;
+  if (block.kind == OrganKind::rotation) return;
+  if (block.kind != OrganKind::bud && a.length_m == 0)
+    note(plant, block.where, "this " + organ + " has no a_length and no extent");
+  if (block.kind == OrganKind::leaf && a.width_m == 0)
+    note(plant, block.where, "this leaf has no a_width and no surface");
+  if (block.kind != OrganKind::leaf && a.radius_m == 0)
+    note(plant, block.where, "this " + organ + " has no a_radius and no surface");
+  if (block.kind == OrganKind::leaf && a.length_m > long_leaf_m)
+    note(plant, block.where,
+         fmt::format("a leaf {:.4g} m long; is the unit ('units {}') right?", a.length_m, plant.unit));
+}
+
+}  // namespace
+
+void assign_blocks(Plant& plant) {
+  std::map<Key, int> numbered;
+  std::map<OrganKind, int> defaults;
+  for (std::size_t i = 0; i < plant.blocks.size(); ++i) {
+    const Block& block = plant.blocks[i];
+    if (block.number)
+      numbered[{block.kind, *block.number}] = static_cast<int>(i);
+    else
+      defaults[block.kind] = static_cast<int>(i);
+  }
+  std::set<Key> labels;
+  for (const Symbol& symbol : plant.word) {
+    if (symbol.label) labels.insert({symbol.kind, *symbol.label});
+  }
+  std::set<int> used;
+  for (Symbol& symbol : plant.word) {
+    if (symbol.type != Symbol::Type::organ) continue;
+    const Key by_ordinal{symbol.kind, symbol.ordinal};
+    if (symbol.label && numbered.contains({symbol.kind, *symbol.label})) {
+      symbol.block = numbered[{symbol.kind, *symbol.label}];
+    } else if (numbered.contains(by_ordinal) && !labels.contains(by_ordinal)) {
+      symbol.block = numbered[by_ordinal];
+    } else if (const auto found = defaults.find(symbol.kind); found != defaults.end()) {
+      symbol.block = found->second;
+    }
+    if (symbol.block >= 0) used.insert(symbol.block);
+  }
+  for (std::size_t i = 0; i < plant.word.size(); ++i) {
+    const Symbol& symbol = plant.word[i];
+    if (symbol.type == Symbol::Type::organ && symbol.block < 0)
+      note(plant, symbol.where,
+           fmt::format("{} has no block{}", name(symbol),
+                       symbol.kind == OrganKind::rotation ? " and turns nothing" : " and no extent"));
+  }
+  note_ambiguous_numbers(plant);
+  for (std::size_t i = 0; i < plant.blocks.size(); ++i) {
+    const Block& block = plant.blocks[i];
+    if (!used.contains(static_cast<int>(i)))
+      note(plant, block.where,
+           fmt::format("nothing uses the block '{}{}'", letter(block.kind),
+                       block.number ? fmt::format(" {}", *block.number) : std::string()));
+    note_sizes(plant, block);
+  }
+}
+
+}  // namespace bpms

@@ -1,0 +1,45 @@
+#include "plant/plant.h"
+
+#include "plant/language/attributes.h"
+
+namespace bpms {
+namespace {
+std::unique_ptr<OrganFunction> copy(const std::unique_ptr<OrganFunction>& function) {
+  return function ? function->clone() : nullptr;
+}
+}  // namespace
+
+char letter(OrganKind kind) {
+  return organ_letters[static_cast<std::size_t>(kind)];
+}
+
+std::string organ_name(OrganKind kind) {
+  constexpr const char* names[] = {"bud", "stem", "leaf", "head", "rotation"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+OrganAttributes::OrganAttributes() = default;
+OrganAttributes::OrganAttributes(OrganAttributes&&) noexcept = default;
+OrganAttributes& OrganAttributes::operator=(OrganAttributes&&) noexcept = default;
+OrganAttributes::~OrganAttributes() = default;
+
+OrganAttributes::OrganAttributes(const OrganAttributes& other)
+    : material(other.material),
+      length_m(other.length_m),
+      width_m(other.width_m),
+      radius_m(other.radius_m),
+      inclination(other.inclination),
+      azimuth(other.azimuth),
+      twist(other.twist),
+      f_inclination(copy(other.f_inclination)),
+      f_azimuth(copy(other.f_azimuth)),
+      f_twist(copy(other.f_twist)),
+      f_curvature(copy(other.f_curvature)),
+      f_width(copy(other.f_width)) {}
+
+OrganAttributes& OrganAttributes::operator=(const OrganAttributes& other) {
+  OrganAttributes copied(other);
+  return *this = std::move(copied);
+}
+
+}  // namespace bpms
