@@ -94,6 +94,8 @@ TEST(Command, VectorsFrameAndReport) {
   EXPECT_EQ(report["figures"][0]["name"], "pot rim diameter");
   EXPECT_NEAR(report["figures"][0]["value"].get<double>(), 0.16, 1e-6);
   EXPECT_GT(report["figures"][0]["sigma"].get<double>(), 0);
+  EXPECT_EQ(report["vertical_m"], (Json{0.0, 0.0, 1.0}));
+  EXPECT_LT(report["towards_cameras"][1].get<double>(), -0.9);  // the cameras look along +y
   EXPECT_EQ(report["photographs"][0]["camera"], "left");
   EXPECT_EQ(report["photographs"][0]["view"], "a");
   EXPECT_EQ(report["photographs"][0]["height"], 1300);
