@@ -119,6 +119,15 @@ TEST(Command, VectorsGoToStandardOutput) {
   EXPECT_GT(total[1].covariance_m2.trace(), alone[1].covariance_m2.trace());
 }
 
+TEST(Command, ANameInLatin1DoesNotCostTheReport) {
+  const test::TemporaryFolder folder;
+  prepare(folder);
+  folder.write("latin.csv", header + rows(test::parallel_rig(), "bl\xe9,1,1,leaf,midrib", 1, {0, 0, 1.5}));
+  const Outcome run = bpms(folder, "reconstruct latin.csv --rig rig.toml --json");
+  ASSERT_EQ(run.code, 0) << run.error;
+  EXPECT_EQ(Json::parse(run.out)["curves"][0]["plant"], "bl\xef\xbf\xbd");
+}
+
 TEST(Command, RefusalsEndWithOneLineAndTheirCode) {
   const test::TemporaryFolder folder;
   prepare(folder);

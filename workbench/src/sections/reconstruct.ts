@@ -37,8 +37,8 @@ function space(r: Reconstruct, names: Organs, s: Section): void {
   const used = r.curves.map((c) => ({ c, points: c.points.filter((p) => !p.rejected).flatMap((p) => [position(p)]).filter((p) => p !== null) }));
   if (!used.some((u) => u.points.length > 1)) return;
   const vertical = triple(r.vertical_m);
-  const up = vertical ?? [0, -1, 0];
-  const towards = triple(r.towards_cameras) ?? [0, 0, -1];
+  const up: Point3 = vertical ?? [0, -1, 0];
+  const towards: Point3 = triple(r.towards_cameras) ?? [0, 0, -1];
   const scene = scene3d({
     curves: used.map(({ c, points }) => ({ label: names.full(c), colour: names.colour(c), points, width: /midrib|axis/.test(c.feature ?? "axis") ? 3 : 1.3 })),
     dots: used.map(({ c, points }) => ({ points, colour: names.colour(c), size: 5 })),
