@@ -64,7 +64,8 @@ FittedPlant assemble_plant(const std::string& name, const std::vector<OrganFit>&
     if (fit.measured.organ == "stem" && (foot == nullptr || fit.base_m.z() < foot->base_m.z())) foot = &fit;
   }
   if (out.organs.empty()) return out;
-  out.origin_m = foot != nullptr ? foot->base_m : Eigen::Vector3d(sum / static_cast<double>(out.organs.size()));
+  out.origin_m =
+      foot != nullptr ? foot->base_m : Eigen::Vector3d(sum / static_cast<double>(out.organs.size()));
 
   int rotations = 0;
   std::map<OrganKind, int> count;

@@ -1,7 +1,7 @@
 // Fitted organs put together to a plant.
-// The axes that were measured start at one common base, the plant's origin: the foot of the lowest stem, or where no
-// stem was digitised the mean of the leaves' bases. How far each organ's own base lies from it is reported, not lost.
-// A leaf stands behind a rotation + with its direction around the stem as a_twist.
+// The axes that were measured start at one common base, the plant's origin: the foot of the lowest stem, or
+// where no stem was digitised the mean of the leaves' bases. How far each organ's own base lies from it is
+// reported, not lost. A leaf stands behind a rotation + with its direction around the stem as a_twist.
 #pragma once
 #include <string>
 #include <vector>

@@ -8,7 +8,9 @@
 namespace bpms {
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json points(const std::vector<Eigen::Vector3d>& list) {
   Json out = Json::array();
@@ -18,7 +20,8 @@ Json points(const std::vector<Eigen::Vector3d>& list) {
 
 Json function(const FittedFunction& f, bool angle) {
   const double unit = angle ? degrees(1) : 1.0;
-  Json coefficients = Json::array(), sigma = Json::array(), l = Json::array(), value = Json::array(), band = Json::array();
+  Json coefficients = Json::array(), sigma = Json::array(), l = Json::array(), value = Json::array(),
+       band = Json::array();
   for (Eigen::Index k = 0; k < f.coefficients.size(); ++k) {
     coefficients.push_back(number(unit * f.coefficients[k]));
     sigma.push_back(number(unit * std::sqrt(f.covariance(k, k))));
@@ -30,8 +33,12 @@ Json function(const FittedFunction& f, bool angle) {
     value.push_back(number(unit * f.value(at)));
     band.push_back(number(unit * f.sigma(at)));
   }
-  return {{"kind", std::string(1, f.choice.code)}, {"order", f.choice.order}, {"unit", angle ? "degree" : "m"},
-          {"coefficients", coefficients}, {"sigma", sigma}, {"aicc", number(f.aicc)},
+  return {{"kind", std::string(1, f.choice.code)},
+          {"order", f.choice.order},
+          {"unit", angle ? "degree" : "m"},
+          {"coefficients", coefficients},
+          {"sigma", sigma},
+          {"aicc", number(f.aicc)},
           {"curve", {{"l", l}, {"value", value}, {"sigma", band}}}};
 }
 
@@ -40,7 +47,8 @@ Json aicc_table(const OrganFit& fit) {
   for (const auto& [name, rows] : fit.aicc_table) {
     Json table = Json::array();
     for (const auto& [choice, aicc] : rows)
-      table.push_back({{"kind", std::string(1, choice.code)}, {"order", choice.order}, {"aicc", number(aicc)}});
+      table.push_back(
+          {{"kind", std::string(1, choice.code)}, {"order", choice.order}, {"aicc", number(aicc)}});
     if (!table.empty()) out[name] = table;
   }
   return out;
@@ -56,10 +64,16 @@ double quantile(std::vector<double> values, double q) {
 }
 
 Json organ(const OrganFit& fit) {
-  Json out{{"id", nullptr}, {"plant", fit.measured.plant}, {"axis", fit.measured.axis}, {"rank", fit.measured.rank},
-           {"organ", fit.measured.organ}, {"key", fit.measured.key}, {"points", fit.measured.midrib.size()}};
+  Json out{{"id", nullptr},
+           {"plant", fit.measured.plant},
+           {"axis", fit.measured.axis},
+           {"rank", fit.measured.rank},
+           {"organ", fit.measured.organ},
+           {"key", fit.measured.key},
+           {"points", fit.measured.midrib.size()}};
   if (!fit.ok()) {
-    for (const char* key : {"length_m", "length_sigma_m", "rms_m", "rms_fraction", "chi2_per_dof"}) out[key] = nullptr;
+    for (const char* key : {"length_m", "length_sigma_m", "rms_m", "rms_fraction", "chi2_per_dof"})
+      out[key] = nullptr;
     out["functions"] = Json::object();
     out["failure"] = fit.failure;
     out["points_m"] = points(fit.points_m);
@@ -75,7 +89,8 @@ Json organ(const OrganFit& fit) {
   out["direction_deg"] = number(degrees(fit.direction));
   out["direction_sigma_deg"] = number(degrees(fit.direction_sigma));
   out["base_m"] = {number(fit.base_m.x()), number(fit.base_m.y()), number(fit.base_m.z())};
-  out["base_sigma_m"] = {number(std::sqrt(fit.base_covariance_m2(0, 0))), number(std::sqrt(fit.base_covariance_m2(1, 1))),
+  out["base_sigma_m"] = {number(std::sqrt(fit.base_covariance_m2(0, 0))),
+                         number(std::sqrt(fit.base_covariance_m2(1, 1))),
                          number(std::sqrt(fit.base_covariance_m2(2, 2)))};
   out["width_m"] = number(fit.width_m);
   out["width_sigma_m"] = number(fit.width_sigma_m);
@@ -93,17 +108,22 @@ Json organ(const OrganFit& fit) {
 
 }  // namespace
 
+Json fit_summary(const std::vector<OrganFit>& fits) {
+  std::vector<double> fractions;
+  for (const OrganFit& fit : fits)
+    if (fit.ok()) fractions.push_back(fit.rms_m / fit.length_m);
+  return {{"organs", fits.size()},
+          {"rms_fraction_median", number(quantile(fractions, 0.5))},
+          {"rms_fraction_p90", number(quantile(fractions, 0.9))},
+          {"failed", fits.size() - fractions.size()}};
+}
+
 Json fit_report(const std::vector<OrganFit>& fits, const std::vector<FittedPlant>& plants) {
   Json organs = Json::array(), plant_list = Json::array();
-  std::vector<double> fractions;
-  int failed = 0;
-  for (const OrganFit& fit : fits) {
-    organs.push_back(organ(fit));
-    if (fit.ok()) fractions.push_back(fit.rms_m / fit.length_m);
-    else ++failed;
-  }
+  for (const OrganFit& fit : fits) organs.push_back(organ(fit));
   for (const FittedPlant& plant : plants) {
-    plant_list.push_back({{"name", plant.plant.name}, {"organs", plant.organs.size()},
+    plant_list.push_back({{"name", plant.plant.name},
+                          {"organs", plant.organs.size()},
                           {"origin_m", {plant.origin_m.x(), plant.origin_m.y(), plant.origin_m.z()}}});
     for (std::size_t id = 0; id < plant.organs.size(); ++id) {
       Json& entry = organs[plant.organs[id]];
@@ -112,9 +132,7 @@ Json fit_report(const std::vector<OrganFit>& fits, const std::vector<FittedPlant
       entry["base_offset_m"] = {offset.x(), offset.y(), offset.z()};
     }
   }
-  return {{"organs", organs}, {"plants", plant_list},
-          {"summary", {{"organs", fits.size()}, {"rms_fraction_median", number(quantile(fractions, 0.5))},
-                       {"rms_fraction_p90", number(quantile(fractions, 0.9))}, {"failed", failed}}}};
+  return {{"organs", organs}, {"plants", plant_list}, {"summary", fit_summary(fits)}};
 }
 
 }  // namespace bpms
