@@ -1,5 +1,6 @@
 // The noun of calibration: cameras with lens models and poses, and the covariance of all of it.
-// Frames: X_cam = R X_rig + t with x right, y down, z forward. Pixel centres are integers (OpenCV's convention).
+// Frames: X_cam = R X_rig + t with x right, y down, z forward. Pixel centres are integers (OpenCV's
+// convention).
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -23,13 +24,15 @@ struct Camera {
   Eigen::Vector3d t_cam_from_rig_m = Eigen::Vector3d::Zero();
   std::map<std::string, std::string> identity;  // serial, lens, focus, aperture, date, ...
 
-  Eigen::Vector3d camera_from_rig(const Eigen::Vector3d& x_rig) const { return r_cam_from_rig * x_rig + t_cam_from_rig_m; }
+  Eigen::Vector3d camera_from_rig(const Eigen::Vector3d& x_rig) const {
+    return r_cam_from_rig * x_rig + t_cam_from_rig_m;
+  }
 };
 
 // Pixel of a point in the camera's frame; nullopt for z <= 0 or outside the model's monotone region.
 std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector3d& x_cam);
-// The pixel of a rig point and its derivatives: by the point in the rig frame, by the camera's parameters, and by the
-// pose (rotation vector of a left perturbation R <- exp(w) R, then t).
+// The pixel of a rig point and its derivatives: by the point in the rig frame, by the camera's parameters,
+// and by the pose (rotation vector of a left perturbation R <- exp(w) R, then t).
 struct Projection {
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, 3> by_point;
@@ -37,13 +40,15 @@ struct Projection {
   Eigen::Matrix<double, 2, 6> by_pose;
 };
 std::optional<Projection> project_with_derivatives(const Camera& camera, const Eigen::Vector3d& x_rig);
-// Unit ray in the camera's frame of a pixel (Newton with the analytic Jacobian); nullopt when it does not converge.
+// Unit ray in the camera's frame of a pixel (Newton with the analytic Jacobian); nullopt when it does not
+// converge.
 std::optional<Eigen::Vector3d> unproject(const Camera& camera, const Eigen::Vector2d& pixel);
 
 struct Rig {
   std::vector<Camera> cameras;
-  // Of the free parameters named in `order`, camera by camera: "left.fx" ... "left.k1" ..., then "right.rx" "right.ry"
-  // "right.rz" (left-perturbation rotation vector) "right.tx" "right.ty" "right.tz". Empty when not known.
+  // Of the free parameters named in `order`, camera by camera: "left.fx" ... "left.k1" ..., then "right.rx"
+  // "right.ry" "right.rz" (left-perturbation rotation vector) "right.tx" "right.ty" "right.tz". Empty when
+  // not known.
   struct Covariance {
     std::vector<std::string> order;
     Eigen::MatrixXd matrix;

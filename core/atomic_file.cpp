@@ -16,7 +16,8 @@ namespace bpms {
 void require_writable(const std::string& path, bool overwrite) {
   std::error_code code;
   if (path.empty()) throw Error(ErrorKind::bad_input, "an output file name is empty");
-  if (fs::is_directory(path, code)) fail(ErrorKind::missing_resource, {path}, "is a folder, a file name was expected");
+  if (fs::is_directory(path, code))
+    fail(ErrorKind::missing_resource, {path}, "is a folder, a file name was expected");
   if (fs::exists(path, code) && !overwrite)
     fail(ErrorKind::bad_input, {path}, "exists already; give --overwrite to replace it");
   const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");

@@ -17,7 +17,7 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
   const std::string& temporary() const { return temporary_; }  // for libraries that open files themselves
   void write(std::string_view bytes);                          // buffered nowhere: appended at once
-  void commit();                                               // flushed to disk, then renamed over the target
+  void commit();  // flushed to disk, then renamed over the target
 
  private:
   std::string path_;

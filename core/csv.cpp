@@ -11,7 +11,8 @@ namespace bpms {
 CsvDialect csv_dialect(std::string_view name) {
   if (name == "en") return {};
   if (name == "fr") return {';', ','};
-  bad_input({}, "unknown CSV dialect {}; known: en (comma, decimal point), fr (semicolon, decimal comma)", in_quotes(name));
+  bad_input({}, "unknown CSV dialect {}; known: en (comma, decimal point), fr (semicolon, decimal comma)",
+            in_quotes(name));
 }
 
 namespace {
@@ -22,7 +23,9 @@ std::string_view trimmed(std::string_view text) {
 }
 }  // namespace
 
-CsvTable CsvTable::read(const std::string& path, CsvDialect dialect) { return parse(path, read_text(path), dialect); }
+CsvTable CsvTable::read(const std::string& path, CsvDialect dialect) {
+  return parse(path, read_text(path), dialect);
+}
 
 CsvTable CsvTable::parse(std::string path, std::string text, CsvDialect dialect) {
   CsvTable table;
@@ -37,12 +40,14 @@ CsvTable CsvTable::parse(std::string path, std::string text, CsvDialect dialect)
     if (!blank && table.columns_.empty()) {
       for (const Field& field : row) {
         if (std::find(table.columns_.begin(), table.columns_.end(), field.text) != table.columns_.end())
-          bad_input({table.path_, field.line, field.column}, "the column {} stands twice in the header", in_quotes(field.text));
+          bad_input({table.path_, field.line, field.column}, "the column {} stands twice in the header",
+                    in_quotes(field.text));
         table.columns_.push_back(field.text);
       }
     } else if (!blank) {
       if (row.size() != table.columns_.size())
-        bad_input({table.path_, row[0].line}, "{} fields, expected {} as in the header", row.size(), table.columns_.size());
+        bad_input({table.path_, row[0].line}, "{} fields, expected {} as in the header", row.size(),
+                  table.columns_.size());
       std::move(row.begin(), row.end(), std::back_inserter(table.fields_));
     }
     row.clear();
@@ -65,7 +70,8 @@ CsvTable CsvTable::parse(std::string path, std::string text, CsvDialect dialect)
       ++at, ++column;
       while (at < text.size() && (text[at] == ' ' || text[at] == '\t' || text[at] == '\r')) ++at, ++column;
       if (at < text.size() && text[at] != dialect.separator && text[at] != '\n')
-        bad_input({table.path_, line, column}, "text after a closing quote, expected '{}' or the end of the line", dialect.separator);
+        bad_input({table.path_, line, column},
+                  "text after a closing quote, expected '{}' or the end of the line", dialect.separator);
     } else {
       const std::size_t begin = at;
       while (at < text.size() && text[at] != dialect.separator && text[at] != '\n') ++at, ++column;
@@ -95,7 +101,8 @@ int CsvTable::find(std::string_view column) const {
 
 int CsvTable::require(std::string_view column) const {
   const int at = find(column);
-  if (at < 0) bad_input({path_, 1}, "no column {} in the header{}", in_quotes(column), did_you_mean(column, columns_));
+  if (at < 0)
+    bad_input({path_, 1}, "no column {} in the header{}", in_quotes(column), did_you_mean(column, columns_));
   return at;
 }
 
@@ -114,16 +121,16 @@ double CsvTable::number(std::size_t row, int column) const {
   if (dialect_.decimal != '.') std::replace(field.begin(), field.end(), dialect_.decimal, '.');
   const auto value = parse_number(field);
   if (!value || std::abs(*value) > largest)
-    bad_input(where(row, column), "found {} in column {}, expected a finite number", in_quotes(text(row, column)),
-              in_quotes(columns_[static_cast<std::size_t>(column)]));
+    bad_input(where(row, column), "found {} in column {}, expected a finite number",
+              in_quotes(text(row, column)), in_quotes(columns_[static_cast<std::size_t>(column)]));
   return *value;
 }
 
 long long CsvTable::integer(std::size_t row, int column) const {
   const auto value = parse_integer(text(row, column));
   if (!value)
-    bad_input(where(row, column), "found {} in column {}, expected a whole number", in_quotes(text(row, column)),
-              in_quotes(columns_[static_cast<std::size_t>(column)]));
+    bad_input(where(row, column), "found {} in column {}, expected a whole number",
+              in_quotes(text(row, column)), in_quotes(columns_[static_cast<std::size_t>(column)]));
   return *value;
 }
 
@@ -137,6 +144,8 @@ std::string csv_field(std::string_view text) {
   return out + "\"";
 }
 
-std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); }
+std::string csv_number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
 
 }  // namespace bpms

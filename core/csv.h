@@ -1,5 +1,6 @@
-// CSV tables that know their line and column numbers. Comma and point by default; ';' and decimal comma as dialect "fr".
-// Quoted fields ("a, b", doubled quotes) are understood; blank lines are skipped; unknown columns are kept.
+// CSV tables that know their line and column numbers. Comma and point by default; ';' and decimal comma as
+// dialect "fr". Quoted fields ("a, b", doubled quotes) are understood; blank lines are skipped; unknown
+// columns are kept.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -31,7 +32,7 @@ class CsvTable {
 
   std::string_view text(std::size_t row, int column) const;
   bool empty(std::size_t row, int column) const { return text(row, column).empty(); }
-  double number(std::size_t row, int column) const;       // finite and |x| <= 1e12, or located bad_input
+  double number(std::size_t row, int column) const;  // finite and |x| <= 1e12, or located bad_input
   long long integer(std::size_t row, int column) const;
   SourceLocation where(std::size_t row, int column) const;
 

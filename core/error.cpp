@@ -4,13 +4,19 @@ namespace bpms {
 
 int exit_code(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::internal: return 1;
-    case ErrorKind::bad_input: return 2;
+    case ErrorKind::internal:
+      return 1;
+    case ErrorKind::bad_input:
+      return 2;
     case ErrorKind::missing_resource:
-    case ErrorKind::device: return 3;
-    case ErrorKind::numeric: return 4;
-    case ErrorKind::refused: return 5;
-    case ErrorKind::interrupted: return 130;
+    case ErrorKind::device:
+      return 3;
+    case ErrorKind::numeric:
+      return 4;
+    case ErrorKind::refused:
+      return 5;
+    case ErrorKind::interrupted:
+      return 130;
   }
   return 1;
 }

@@ -42,7 +42,8 @@ class Error : public std::runtime_error {
 };
 
 template <class... Args>
-[[noreturn]] void fail(ErrorKind kind, const SourceLocation& where, fmt::format_string<Args...> format, Args&&... args) {
+[[noreturn]] void fail(ErrorKind kind, const SourceLocation& where, fmt::format_string<Args...> format,
+                       Args&&... args) {
   throw Error(kind, where, fmt::format(format, std::forward<Args>(args)...));
 }
 template <class... Args>

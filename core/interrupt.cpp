@@ -21,7 +21,9 @@ void catch_interrupts() {
   std::signal(SIGTERM, on_signal);
 }
 
-bool interrupted() { return flag.load(); }
+bool interrupted() {
+  return flag.load();
+}
 
 void throw_if_interrupted() {
   if (interrupted()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");

@@ -16,19 +16,28 @@ std::string in_words(double seconds) {
 }
 }  // namespace
 
-void set_quiet(bool on) { quiet_flag = on; }
-bool quiet() { return quiet_flag; }
+void set_quiet(bool on) {
+  quiet_flag = on;
+}
+bool quiet() {
+  return quiet_flag;
+}
 
 void note(const std::string& message) {
   if (!quiet_flag) fmt::print(stderr, "note: {}\n", message);
 }
 
 Progress::Progress(std::string what, std::uint64_t total)
-    : what_(std::move(what)), total_(total), start_(std::chrono::steady_clock::now()), terminal_(isatty(2) == 1) {
+    : what_(std::move(what)),
+      total_(total),
+      start_(std::chrono::steady_clock::now()),
+      terminal_(isatty(2) == 1) {
   next_ms_ = terminal_ ? 300 : 5000;
 }
 
-Progress::~Progress() { show(true); }
+Progress::~Progress() {
+  show(true);
+}
 
 void Progress::set(std::uint64_t done) {
   done_ = done;
@@ -56,9 +65,12 @@ void Progress::show(bool last) {
   const std::uint64_t done = done_;
   const double rate = static_cast<double>(done) / (seconds > 0 ? seconds : 1);
   std::string line = fmt::format("{}: {}", what_, done);
-  if (total_ > 0) line += fmt::format("/{} ({:.0f} %)", total_, 100.0 * static_cast<double>(done) / static_cast<double>(total_));
+  if (total_ > 0)
+    line += fmt::format("/{} ({:.0f} %)", total_,
+                        100.0 * static_cast<double>(done) / static_cast<double>(total_));
   line += fmt::format(", {:.3g}/s", rate);
-  if (!last && total_ > done && rate > 0) line += fmt::format(", {} left", in_words(static_cast<double>(total_ - done) / rate));
+  if (!last && total_ > done && rate > 0)
+    line += fmt::format(", {} left", in_words(static_cast<double>(total_ - done) / rate));
   if (!status_.empty()) line += ", " + status_;
   if (terminal_) {
     fmt::print(stderr, "\r\x1b[K{}{}", line, last ? "\n" : "");

@@ -19,7 +19,7 @@ class Progress {
   ~Progress();                                      // ends the line
   void add(std::uint64_t count = 1);                // from any thread
   void set(std::uint64_t done);
-  void status(const std::string& text);             // shown at the line's end, e.g. the worst standard error
+  void status(const std::string& text);  // shown at the line's end, e.g. the worst standard error
 
  private:
   void show(bool last);

@@ -10,7 +10,9 @@
 
 namespace bpms {
 
-std::string version() { return BPMS_VERSION; }
+std::string version() {
+  return BPMS_VERSION;
+}
 
 std::string sha256(std::string_view bytes) {
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
@@ -20,10 +22,15 @@ std::string sha256(std::string_view bytes) {
   return out;
 }
 
-void Provenance::add_input(const std::string& path) { inputs.push_back({path, bpms::sha256(read_file(path))}); }
+void Provenance::add_input(const std::string& path) {
+  inputs.push_back({path, bpms::sha256(read_file(path))});
+}
 
 Json Provenance::json() const {
-  Json out{{"version", version()}, {"command", command}, {"seed", seed ? Json(*seed) : Json()}, {"inputs", Json::array()}};
+  Json out{{"version", version()},
+           {"command", command},
+           {"seed", seed ? Json(*seed) : Json()},
+           {"inputs", Json::array()}};
   for (const Input& input : inputs) out["inputs"].push_back({{"path", input.path}, {"sha256", input.sha256}});
   return out;
 }

@@ -7,10 +7,12 @@
 
 namespace bpms {
 
-std::array<std::uint32_t, 4> philox(std::uint64_t key, std::uint64_t counter_high, std::uint64_t counter_low) {
+std::array<std::uint32_t, 4> philox(std::uint64_t key, std::uint64_t counter_high,
+                                    std::uint64_t counter_low) {
   const r123::Philox4x32 generator;
-  r123::Philox4x32::ctr_type counter{{static_cast<std::uint32_t>(counter_low), static_cast<std::uint32_t>(counter_low >> 32),
-                                      static_cast<std::uint32_t>(counter_high), static_cast<std::uint32_t>(counter_high >> 32)}};
+  r123::Philox4x32::ctr_type counter{
+      {static_cast<std::uint32_t>(counter_low), static_cast<std::uint32_t>(counter_low >> 32),
+       static_cast<std::uint32_t>(counter_high), static_cast<std::uint32_t>(counter_high >> 32)}};
   r123::Philox4x32::key_type words{{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}};
   const auto out = generator(counter, words);
   return {out[0], out[1], out[2], out[3]};
@@ -24,7 +26,9 @@ std::uint32_t Philox::bits() {
   return block_[static_cast<std::size_t>(used_++)];
 }
 
-double Philox::uniform() { return unit_interval(bits()); }
+double Philox::uniform() {
+  return unit_interval(bits());
+}
 
 double Philox::normal() {
   const double radius = std::sqrt(-2.0 * std::log(uniform()));
@@ -37,7 +41,8 @@ std::uint64_t Philox::below(std::uint64_t count) {
 
 namespace {
 
-// Primitive polynomials and initial direction numbers, new-joe-kuo-6.21201 (Joe & Kuo 2008), dimensions 2 to 8.
+// Primitive polynomials and initial direction numbers, new-joe-kuo-6.21201 (Joe & Kuo 2008), dimensions 2
+// to 8.
 struct Direction {
   int degree;
   std::uint32_t polynomial;

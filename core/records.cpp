@@ -17,14 +17,20 @@ namespace {
 
 struct LabelColumns {
   explicit LabelColumns(const CsvTable& table)
-      : plant(table.require("plant")), axis(table.require("axis")), rank(table.require("rank")),
-        organ(table.require("organ")), feature(table.require("feature")), point(table.require("point")) {}
+      : plant(table.require("plant")),
+        axis(table.require("axis")),
+        rank(table.require("rank")),
+        organ(table.require("organ")),
+        feature(table.require("feature")),
+        point(table.require("point")) {}
   OrganLabel label(const CsvTable& table, std::size_t row) const {
     constexpr long long highest_rank = 1'000'000;
     const long long number = table.integer(row, rank);
-    if (number < 0 || number > highest_rank) bad_input(table.where(row, rank), "rank {} is out of range", number);
-    OrganLabel out{std::string(table.text(row, plant)), std::string(table.text(row, axis)), static_cast<int>(number),
-                   std::string(table.text(row, organ)), std::string(table.text(row, feature))};
+    if (number < 0 || number > highest_rank)
+      bad_input(table.where(row, rank), "rank {} is out of range", number);
+    OrganLabel out{std::string(table.text(row, plant)), std::string(table.text(row, axis)),
+                   static_cast<int>(number), std::string(table.text(row, organ)),
+                   std::string(table.text(row, feature))};
     if (out.organ.empty()) bad_input(table.where(row, organ), "the organ has no name");
     if (out.feature.empty()) bad_input(table.where(row, feature), "the feature has no name");
     return out;
@@ -58,10 +64,11 @@ std::vector<ImagePoint> read_image_points(const std::string& path) {
     point.sigma_px = table.number(row, sigma);
     point.where = table.where(row, labels.point);
     if (point.camera.empty()) bad_input(table.where(row, camera), "the camera has no name");
-    if (point.sigma_px <= 0) bad_input(table.where(row, sigma), "found {}, expected a sigma above 0 px", point.sigma_px);
+    if (point.sigma_px <= 0)
+      bad_input(table.where(row, sigma), "found {}, expected a sigma above 0 px", point.sigma_px);
     if (!seen.emplace(point.label, point.point, point.view, point.camera).second)
-      bad_input(point.where, "{} point {} stands twice for view '{}', camera '{}'", point.label.str(), point.point,
-                point.view, point.camera);
+      bad_input(point.where, "{} point {} stands twice for view '{}', camera '{}'", point.label.str(),
+                point.point, point.view, point.camera);
     out.push_back(std::move(point));
   }
   if (out.empty()) bad_input({path}, "no points after the header");
@@ -90,7 +97,8 @@ std::vector<VectorPoint> read_vectors(const std::string& path) {
       int at = 0;
       for (int i = 0; i < 3; ++i) {
         for (int j = i; j < 3; ++j, ++at)
-          point.covariance_m2(i, j) = point.covariance_m2(j, i) = table.number(row, c[static_cast<std::size_t>(at)]);
+          point.covariance_m2(i, j) = point.covariance_m2(j, i) =
+              table.number(row, c[static_cast<std::size_t>(at)]);
       }
       const double least = point.covariance_m2.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
       if (least < -1e-9 * std::abs(point.covariance_m2.trace()) || point.covariance_m2.trace() < 0)
@@ -110,7 +118,8 @@ std::string vectors_csv(const std::vector<VectorPoint>& points) {
     const auto& c = p.covariance_m2;
     out += fmt::format("{},{},{},{},{},{}", csv_field(p.label.plant), csv_field(p.label.axis), p.label.rank,
                        csv_field(p.label.organ), csv_field(p.label.feature), p.point);
-    for (const double value : {p.x_m[0], p.x_m[1], p.x_m[2], c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)})
+    for (const double value :
+         {p.x_m[0], p.x_m[1], p.x_m[2], c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)})
       out += "," + csv_number(value);
     out += "\n";
   }

@@ -8,7 +8,8 @@
 
 namespace bpms {
 
-// What a digitised point or vector belongs to: plant, axis, rank of the organ, kind of organ, feature of it, point.
+// What a digitised point or vector belongs to: plant, axis, rank of the organ, kind of organ, feature of it,
+// point.
 struct OrganLabel {
   std::string plant;
   std::string axis;

@@ -15,7 +15,8 @@ std::string read_file(const std::string& path) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
   if (!std::filesystem::exists(status)) fail(ErrorKind::missing_resource, {path}, "no such file");
-  if (std::filesystem::is_directory(status)) fail(ErrorKind::missing_resource, {path}, "is a folder, a file was expected");
+  if (std::filesystem::is_directory(status))
+    fail(ErrorKind::missing_resource, {path}, "is a folder, a file was expected");
   // zlib reads plain files as they are, so one path serves both.
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);
   if (!file) fail(ErrorKind::missing_resource, {path}, "cannot be opened: {}", std::strerror(errno));
@@ -110,11 +111,13 @@ double TokenReader::number(std::string_view what) {
   const auto token = next();
   if (!token) bad_input(here(), "the file ends where {} was expected", what);
   const auto value = parse_number(token->text);
-  if (!value) bad_input(where(*token), "found {}, expected {} (a finite number)", in_quotes(token->text), what);
+  if (!value)
+    bad_input(where(*token), "found {}, expected {} (a finite number)", in_quotes(token->text), what);
   return *value;
 }
 
-NumberTable read_number_table(const std::string& path, int least, int most, std::string_view columns_in_words) {
+NumberTable read_number_table(const std::string& path, int least, int most,
+                              std::string_view columns_in_words) {
   constexpr double largest = 1e12;
   const std::string text = read_text(path);
   NumberTable table{path, {}, {}};
@@ -125,7 +128,8 @@ NumberTable read_number_table(const std::string& path, int least, int most, std:
     const auto count = static_cast<int>(table.rows.back().size());
     if (count < least || count > most)
       bad_input({path, table.lines.back()}, "{} columns, expected {} ({})", count,
-                least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most), columns_in_words);
+                least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most),
+                columns_in_words);
   };
   while (const auto token = reader.next()) {
     if (token->line != line) {
@@ -136,7 +140,8 @@ NumberTable read_number_table(const std::string& path, int least, int most, std:
     }
     const auto value = parse_number(token->text);
     if (!value || std::abs(*value) > largest)
-      bad_input(reader.where(*token), "found {}, expected a finite number ({})", in_quotes(token->text), columns_in_words);
+      bad_input(reader.where(*token), "found {}, expected a finite number ({})", in_quotes(token->text),
+                columns_in_words);
     table.rows.back().push_back(*value);
   }
   check_row();

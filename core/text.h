@@ -1,4 +1,5 @@
-// Text files that know where they are: whole-file reading, tokens with line and column, numbers independent of locale.
+// Text files that know where they are: whole-file reading, tokens with line and column, numbers independent
+// of locale.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,7 +16,8 @@ std::string read_file(const std::string& path);
 // A UTF-8 byte order mark is dropped.
 std::string read_text(const std::string& path);
 
-// A finite decimal number, point as decimal sign; nullopt for anything else ("nan", "inf", "1,5", "12abc", 1e999).
+// A finite decimal number, point as decimal sign; nullopt for anything else ("nan", "inf", "1,5", "12abc",
+// 1e999).
 std::optional<double> parse_number(std::string_view text);
 std::optional<long long> parse_integer(std::string_view text);
 
@@ -34,7 +36,7 @@ class TokenReader {
   std::optional<Token> peek();
   SourceLocation where(const Token& token) const { return {file_, token.line, token.column}; }
   SourceLocation here() const { return {file_, line_, column_}; }  // just after the last token
-  double number(std::string_view what);                            // the next token as a number, or a located error
+  double number(std::string_view what);  // the next token as a number, or a located error
   const std::string& file() const { return file_; }
 
  private:
@@ -54,6 +56,7 @@ struct NumberTable {
   std::vector<std::vector<double>> rows;
   std::vector<int> lines;
 };
-NumberTable read_number_table(const std::string& path, int least, int most, std::string_view columns_in_words);
+NumberTable read_number_table(const std::string& path, int least, int most,
+                              std::string_view columns_in_words);
 
 }  // namespace bpms

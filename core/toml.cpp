@@ -20,7 +20,9 @@ struct TomlDocument::State {
 
 namespace {
 
-const toml::node* as_node(const void* node) { return static_cast<const toml::node*>(node); }
+const toml::node* as_node(const void* node) {
+  return static_cast<const toml::node*>(node);
+}
 
 SourceLocation location(const std::string& path, const toml::source_region& region) {
   return {path, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
@@ -28,13 +30,20 @@ SourceLocation location(const std::string& path, const toml::source_region& regi
 
 std::string type_in_words(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::string: return "the text " + in_quotes(node.as_string()->get());
-    case toml::node_type::integer: return fmt::format("the number {}", node.as_integer()->get());
-    case toml::node_type::floating_point: return fmt::format("the number {}", node.as_floating_point()->get());
-    case toml::node_type::boolean: return node.as_boolean()->get() ? "true" : "false";
-    default: return "a date or time";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "the text " + in_quotes(node.as_string()->get());
+    case toml::node_type::integer:
+      return fmt::format("the number {}", node.as_integer()->get());
+    case toml::node_type::floating_point:
+      return fmt::format("the number {}", node.as_floating_point()->get());
+    case toml::node_type::boolean:
+      return node.as_boolean()->get() ? "true" : "false";
+    default:
+      return "a date or time";
   }
 }
 
@@ -64,7 +73,8 @@ void report_unknown(const std::string& path, const toml::node& node,
     if (asked == known.end() || !asked->second.contains(key.str())) {
       std::vector<std::string> words;
       if (asked != known.end()) words.assign(asked->second.begin(), asked->second.end());
-      bad_input(location(path, key.source()), "unknown key {}{}", in_quotes(key.str()), did_you_mean(key.str(), words));
+      bad_input(location(path, key.source()), "unknown key {}{}", in_quotes(key.str()),
+                did_you_mean(key.str(), words));
     }
     report_unknown(path, value, known);
   }
@@ -72,7 +82,9 @@ void report_unknown(const std::string& path, const toml::node& node,
 
 }  // namespace
 
-TomlDocument TomlDocument::read(const std::string& path) { return parse(path, read_text(path)); }
+TomlDocument TomlDocument::read(const std::string& path) {
+  return parse(path, read_text(path));
+}
 
 TomlDocument TomlDocument::parse(const std::string& path, std::string_view text) {
   refuse_deep_nesting(path, text);
@@ -87,11 +99,18 @@ TomlDocument TomlDocument::parse(const std::string& path, std::string_view text)
   return document;
 }
 
-TomlValue TomlDocument::root() const { return {state_, static_cast<const toml::node*>(&state_->table), nullptr, ""}; }
-const std::string& TomlDocument::path() const { return state_->path; }
-void TomlDocument::finish() const { report_unknown(state_->path, state_->table, state_->known); }
+TomlValue TomlDocument::root() const {
+  return {state_, static_cast<const toml::node*>(&state_->table), nullptr, ""};
+}
+const std::string& TomlDocument::path() const {
+  return state_->path;
+}
+void TomlDocument::finish() const {
+  report_unknown(state_->path, state_->table, state_->known);
+}
 
-TomlValue::TomlValue(std::shared_ptr<TomlDocument::State> state, const void* node, const void* parent, std::string name)
+TomlValue::TomlValue(std::shared_ptr<TomlDocument::State> state, const void* node, const void* parent,
+                     std::string name)
     : state_(std::move(state)), node_(node), parent_(parent), name_(std::move(name)) {}
 
 SourceLocation TomlValue::where() const {
@@ -125,15 +144,19 @@ TomlValue TomlValue::require(std::string_view key) const {
   std::string hint;
   if (table != nullptr) {  // a misspelt key is the likeliest reason for a missing one
     for (const auto& [other, node] : *table) {
-      if (!state_->known[node_].contains(other.str()) && !nearest_word(other.str(), {std::string(key)}).empty())
-        bad_input(location(state_->path, other.source()), "unknown key {}; did you mean '{}'?", in_quotes(other.str()), key);
+      if (!state_->known[node_].contains(other.str()) &&
+          !nearest_word(other.str(), {std::string(key)}).empty())
+        bad_input(location(state_->path, other.source()), "unknown key {}; did you mean '{}'?",
+                  in_quotes(other.str()), key);
     }
   }
   throw Error(ErrorKind::bad_input, where(),
               fmt::format("missing key '{}'{}", key, name_.empty() ? std::string() : " in [" + name_ + "]"));
 }
 
-bool TomlValue::has(std::string_view key) const { return static_cast<bool>(get(key)); }
+bool TomlValue::has(std::string_view key) const {
+  return static_cast<bool>(get(key));
+}
 
 std::vector<std::string> TomlValue::keys() const {
   std::vector<std::string> out;
@@ -144,11 +167,21 @@ std::vector<std::string> TomlValue::keys() const {
   return out;
 }
 
-bool TomlValue::is_table() const { return node_ != nullptr && as_node(node_)->is_table(); }
-bool TomlValue::is_array() const { return node_ != nullptr && as_node(node_)->is_array(); }
-bool TomlValue::is_string() const { return node_ != nullptr && as_node(node_)->is_string(); }
-bool TomlValue::is_number() const { return node_ != nullptr && as_node(node_)->is_number(); }
-bool TomlValue::is_boolean() const { return node_ != nullptr && as_node(node_)->is_boolean(); }
+bool TomlValue::is_table() const {
+  return node_ != nullptr && as_node(node_)->is_table();
+}
+bool TomlValue::is_array() const {
+  return node_ != nullptr && as_node(node_)->is_array();
+}
+bool TomlValue::is_string() const {
+  return node_ != nullptr && as_node(node_)->is_string();
+}
+bool TomlValue::is_number() const {
+  return node_ != nullptr && as_node(node_)->is_number();
+}
+bool TomlValue::is_boolean() const {
+  return node_ != nullptr && as_node(node_)->is_boolean();
+}
 
 std::size_t TomlValue::size() const {
   if (node_ == nullptr) return 0;
@@ -167,15 +200,18 @@ double TomlValue::number() const {
   if (node_ == nullptr) reject("is missing, expected a number");
   const toml::node& node = *as_node(node_);
   if (!node.is_number()) reject("found " + type_in_words(node) + ", expected a number");
-  const double value = node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
+  const double value =
+      node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
   constexpr double largest = 1e15;
-  if (!std::isfinite(value) || std::abs(value) > largest) reject(fmt::format("found {}, expected a finite number", value));
+  if (!std::isfinite(value) || std::abs(value) > largest)
+    reject(fmt::format("found {}, expected a finite number", value));
   return value;
 }
 
 double TomlValue::number(double low, double high) const {
   const double value = number();
-  if (value < low || value > high) reject(fmt::format("found {}, expected a number from {} to {}", value, low, high));
+  if (value < low || value > high)
+    reject(fmt::format("found {}, expected a number from {} to {}", value, low, high));
   return value;
 }
 

@@ -1,6 +1,6 @@
 // TOML documents whose values know their line and column, and whose unknown keys are errors.
-// A reader asks for the keys it knows; finish() then reports the first key that nobody asked for, with the nearest
-// one that somebody did. toml++ stays behind this header.
+// A reader asks for the keys it knows; finish() then reports the first key that nobody asked for, with the
+// nearest one that somebody did. toml++ stays behind this header.
 #pragma once
 #include <array>
 #include <memory>
@@ -34,9 +34,10 @@ class TomlDocument {
 class TomlValue {
  public:
   explicit operator bool() const { return node_ != nullptr; }
-  SourceLocation where() const;      // of this value; of the table it was looked for in, when absent
+  SourceLocation where() const;  // of this value; of the table it was looked for in, when absent
   const std::string& name() const { return name_; }  // dotted path, "sensors[0].vza_deg"
-  std::string file_relative(std::string_view path) const;  // a path written in the file, relative to the file's folder
+  std::string file_relative(
+      std::string_view path) const;  // a path written in the file, relative to the file's folder
 
   // Tables. get() marks the key as known, present or not.
   TomlValue get(std::string_view key) const;
@@ -51,13 +52,13 @@ class TomlValue {
 
   // Leaves; a value of another type, a NaN or an infinity is located bad_input.
   double number() const;
-  double number(double low, double high) const;   // and inside [low, high]
-  double positive() const;                        // > 0
+  double number(double low, double high) const;  // and inside [low, high]
+  double positive() const;                       // > 0
   long long integer(long long low, long long high) const;
   bool boolean() const;
   std::string string() const;
   std::string one_of(const std::vector<std::string>& known) const;
-  std::vector<double> numbers() const;            // array of numbers
+  std::vector<double> numbers() const;  // array of numbers
   std::vector<double> numbers(std::size_t size) const;
 
   // The same with a default where the key is absent.
@@ -70,7 +71,8 @@ class TomlValue {
 
  private:
   friend class TomlDocument;
-  TomlValue(std::shared_ptr<TomlDocument::State> state, const void* node, const void* parent, std::string name);
+  TomlValue(std::shared_ptr<TomlDocument::State> state, const void* node, const void* parent,
+            std::string name);
   std::shared_ptr<TomlDocument::State> state_;
   const void* node_ = nullptr;    // toml::node
   const void* parent_ = nullptr;  // where an absent key was looked for

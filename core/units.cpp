@@ -25,12 +25,14 @@ double metres_per_unit(std::string_view unit, const SourceLocation& where) {
 
 double parse_length(std::string_view text, const SourceLocation& where) {
   const std::size_t end = text.find_last_of("0123456789.");
-  if (end == std::string_view::npos) bad_input(where, "found {}, expected a length such as 25mm", in_quotes(text));
+  if (end == std::string_view::npos)
+    bad_input(where, "found {}, expected a length such as 25mm", in_quotes(text));
   const auto value = parse_number(text.substr(0, end + 1));
   std::string_view unit = text.substr(end + 1);
   while (unit.starts_with(' ')) unit.remove_prefix(1);
   if (!value) bad_input(where, "found {}, expected a length such as 25mm", in_quotes(text));
-  if (unit.empty()) bad_input(where, "the length {} has no unit; write for example {}mm", in_quotes(text), text);
+  if (unit.empty())
+    bad_input(where, "the length {} has no unit; write for example {}mm", in_quotes(text), text);
   return *value * metres_per_unit(unit, where);
 }
 

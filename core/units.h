@@ -8,8 +8,12 @@
 namespace bpms {
 
 constexpr double pi = std::numbers::pi;
-constexpr double degrees(double radians) { return radians * (180.0 / pi); }
-constexpr double radians(double degrees) { return degrees * (pi / 180.0); }
+constexpr double degrees(double radians) {
+  return radians * (180.0 / pi);
+}
+constexpr double radians(double degrees) {
+  return degrees * (pi / 180.0);
+}
 
 // Metres in one unit named "m", "cm", "mm", "um", "km", "in"; an unknown name is bad_input at `where`.
 double metres_per_unit(std::string_view unit, const SourceLocation& where);

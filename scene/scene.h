@@ -31,8 +31,8 @@ struct Prototype {
   std::string name;
   std::vector<Disc> discs;
   std::uint32_t disc_material = 0;
-  std::shared_ptr<const Mesh> mesh;                 // or null
-  std::vector<std::uint32_t> material_of_organ;     // of the mesh's organs
+  std::shared_ptr<const Mesh> mesh;              // or null
+  std::vector<std::uint32_t> material_of_organ;  // of the mesh's organs
 };
 
 struct Instance {

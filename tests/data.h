@@ -13,7 +13,9 @@ inline std::string data_folder() {
   if (const char* folder = std::getenv("BPMS_DATA")) return folder;
   return std::string(BPMS_SOURCE_DIR) + "/../shared/data";
 }
-inline bool have_data(const std::string& path) { return std::filesystem::exists(data_folder() + "/" + path); }
+inline bool have_data(const std::string& path) {
+  return std::filesystem::exists(data_folder() + "/" + path);
+}
 inline bool data_required() {
   const char* required = std::getenv("BPMS_REQUIRE_DATA");
   return required != nullptr && std::string(required) == "1";
@@ -45,18 +47,19 @@ class TemporaryFolder {
 }  // namespace bpms::test
 
 // In a TEST body: skips when the data are absent, fails when BPMS_REQUIRE_DATA=1.
-#define BPMS_NEED_DATA(path)                                                                         \
-  if (!bpms::test::have_data(path)) {                                                                \
-    if (bpms::test::data_required()) FAIL() << "required data are absent: " << bpms::test::data_folder() << "/" << path; \
-    GTEST_SKIP() << "needs " << bpms::test::data_folder() << "/" << path << " (set BPMS_DATA)";       \
+#define BPMS_NEED_DATA(path)                                                                    \
+  if (!bpms::test::have_data(path)) {                                                           \
+    if (bpms::test::data_required())                                                            \
+      FAIL() << "required data are absent: " << bpms::test::data_folder() << "/" << path;       \
+    GTEST_SKIP() << "needs " << bpms::test::data_folder() << "/" << path << " (set BPMS_DATA)"; \
   }
 
 // The statement throws a bpms::Error of this kind whose line contains `part`.
-#define BPMS_EXPECT_ERROR(statement, error_kind, part)                                     \
-  try {                                                                                    \
-    statement;                                                                             \
-    ADD_FAILURE() << "no error; expected one with: " << part;                              \
-  } catch (const bpms::Error& error) {                                                     \
+#define BPMS_EXPECT_ERROR(statement, error_kind, part)                                       \
+  try {                                                                                      \
+    statement;                                                                               \
+    ADD_FAILURE() << "no error; expected one with: " << part;                                \
+  } catch (const bpms::Error& error) {                                                       \
     EXPECT_EQ(static_cast<int>(error.kind()), static_cast<int>(error_kind)) << error.what(); \
-    EXPECT_THAT(error.what(), ::testing::HasSubstr(part));                                 \
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(part));                                   \
   }

@@ -16,7 +16,11 @@ using bpms::Cli;
 
 constexpr void (*verbs[])(Cli&) = {
     bpms::add_check,
+    bpms::add_build,
+    bpms::add_reconstruct,
     bpms::add_fit,
+    bpms::add_simulate,
+    bpms::add_report,
 };
 
 int parse_and_run(Cli& cli, int argc, char** argv) {
@@ -32,7 +36,8 @@ int parse_and_run(Cli& cli, int argc, char** argv) {
   } catch (const CLI::CallForVersion& v) {
     return cli.app.exit(v);
   } catch (const CLI::ParseError& error) {
-    bpms::bad_input({}, "{} (see bpms {}--help)", error.what(), argc > 1 && argv[1][0] != '-' ? std::string(argv[1]) + " " : "");
+    bpms::bad_input({}, "{} (see bpms {}--help)", error.what(),
+                    argc > 1 && argv[1][0] != '-' ? std::string(argv[1]) + " " : "");
   }
   return 0;
 }

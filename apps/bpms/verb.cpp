@@ -24,7 +24,8 @@ CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary
   verb->callback([&cli, run = std::move(run)] {
     set_quiet(cli.common.quiet);
     set_threads(cli.common.threads);
-    if (!cli.common.output.empty() && cli.common.output != "-") require_writable(cli.common.output, cli.common.overwrite);
+    if (!cli.common.output.empty() && cli.common.output != "-")
+      require_writable(cli.common.output, cli.common.overwrite);
     if (!cli.common.report.empty()) require_writable(cli.common.report, cli.common.overwrite);
     run();
   });
@@ -51,7 +52,8 @@ void deliver_report(const Cli& cli, const std::string& verb, Json report, const 
   const std::string& path = cli.common.report;
   if (path.empty()) return;
   if (path.ends_with(".html")) {
-    const Json page{{"title", "bpms " + verb}, {"version", version()}, {"command", cli.command}, {"reports", {out}}};
+    const Json page{
+        {"title", "bpms " + verb}, {"version", version()}, {"command", cli.command}, {"reports", {out}}};
     write_file(path, html_page(page), cli.common.overwrite);
   } else {
     write_file(path, out.dump(1) + "\n", cli.common.overwrite);

@@ -1,5 +1,6 @@
 // A verb is one file: it declares its options on a CLI11 subcommand and calls its stage.
-// To add one: write verb_NAME.cpp with `void add_NAME(Cli&)`, declare it in verbs.h and put it in the table of main.cpp.
+// To add one: write verb_NAME.cpp with `void add_NAME(Cli&)`, declare it in verbs.h and put it in the table
+// of main.cpp.
 #pragma once
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -30,13 +31,15 @@ struct Cli {
   std::string command;  // as typed
 };
 
-// A subcommand with the common options; `example` is printed at the end of its help. `run` is called after parsing.
+// A subcommand with the common options; `example` is printed at the end of its help. `run` is called after
+// parsing.
 CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary, const std::string& example,
                    std::function<void()> run);
 
 Provenance provenance(const Cli& cli, bool with_seed = false);
 
-// Puts "report": verb and the provenance into the report, prints it on stdout when --json was given and writes it to
+// Puts "report": verb and the provenance into the report, prints it on stdout when --json was given and
+// writes it to
 // --report (JSON, or a self-contained page when the name ends in .html).
 void deliver_report(const Cli& cli, const std::string& verb, Json report, const Provenance& provenance);
 

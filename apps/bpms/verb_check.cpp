@@ -7,8 +7,10 @@
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "core/error.h"
+#include "core/progress.h"
 #include "core/records.h"
 #include "core/text.h"
+#include "plant/plant.h"
 
 namespace bpms {
 namespace {
@@ -17,12 +19,21 @@ bool first_line_has(std::string_view head, std::string_view word) {
   return head.substr(0, head.find('\n')).find(word) != std::string_view::npos;
 }
 
+std::string check_plant(const std::string& path) {
+  const Plant plant = read_plant(path);
+  for (const std::string& warning : plant.warnings) note(warning);
+  return fmt::format("{} organs, {} blocks, {} notes", place_organs(plant).size(), plant.blocks.size(), plant.warnings.size());
+}
+
 const std::vector<FileKind>& kinds() {
   static const std::vector<FileKind> table{
       {"points.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "u_px"); },
-       [](const std::string& path) { return fmt::format("{} image points", read_image_points(path).size()); }},
+       [](const std::string& path) {
+         return fmt::format("{} image points", read_image_points(path).size());
+       }},
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
+      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
   };
   return table;
 }
@@ -49,8 +60,9 @@ void run(const Cli& cli, const std::vector<std::string>& files) {
 
 void add_check(Cli& cli) {
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* verb = add_verb(cli, "check", "validate any file that bpms reads", "bpms check wheat.bpms scene.toml vectors.csv",
-                            [&cli, files] { run(cli, *files); });
+  CLI::App* verb =
+      add_verb(cli, "check", "validate any file that bpms reads",
+               "bpms check wheat.bpms scene.toml vectors.csv", [&cli, files] { run(cli, *files); });
   verb->add_option("files", *files, "files of any kind")->required();
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/geometry/gauss_legendre.h"
+
 namespace bpms {
 namespace {
 
@@ -17,16 +19,11 @@ Eigen::Vector3d tangent(const OrganAttributes& organ, double l) {
           std::cos(azimuth) * std::cos(inclination)};
 }
 
-// Gauss-Legendre with eight nodes (Abramowitz & Stegun 25.4.30).
 Eigen::Vector3d gauss(const OrganAttributes& organ, double from, double to) {
-  constexpr double nodes[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-  constexpr double weights[] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                0.1012285362903763};
-  const double middle = (from + to) / 2;
   const double half = (to - from) / 2;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int i = 0; i < 4; ++i)
-    sum += weights[i] * (tangent(organ, middle - half * nodes[i]) + tangent(organ, middle + half * nodes[i]));
+  for (const GaussNode& node : gauss_legendre_8)
+    sum += node.weight * tangent(organ, from + half * (1 + node.x));
   return half * sum;
 }
 

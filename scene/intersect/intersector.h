@@ -1,5 +1,5 @@
-// Rays against a scene, on Embree, behind this one header. Periodic domains wrap: a ray that leaves a side re-enters on
-// the other until it hits, leaves the top (or bottom), or has wrapped `max_wraps` times.
+// Rays against a scene, on Embree, behind this one header. Periodic domains wrap: a ray that leaves a side
+// re-enters on the other until it hits, leaves the top (or bottom), or has wrapped `max_wraps` times.
 // Re-entrant: any number of threads may trace at once. Directions are unit vectors.
 #pragma once
 #include <Eigen/Core>
@@ -25,13 +25,13 @@ struct Ray {
 };
 
 struct Hit {
-  float distance = 0;                // along the unwrapped ray
-  Eigen::Vector3f position;          // inside the domain cell when periodic
-  Eigen::Vector3f geometric_normal;  // unit, of the upper face
-  Eigen::Vector3f shading_normal;    // unit, same side; equals the geometric one for discs and plane
-  bool front = true;                 // the ray met the upper face
-  std::uint32_t material = 0;        // index into Scene::materials
-  std::uint32_t organ = 0xffffffffu; // index into the prototype's mesh organs
+  float distance = 0;                 // along the unwrapped ray
+  Eigen::Vector3f position;           // inside the domain cell when periodic
+  Eigen::Vector3f geometric_normal;   // unit, of the upper face
+  Eigen::Vector3f shading_normal;     // unit, same side; equals the geometric one for discs and plane
+  bool front = true;                  // the ray met the upper face
+  std::uint32_t material = 0;         // index into Scene::materials
+  std::uint32_t organ = 0xffffffffu;  // index into the prototype's mesh organs
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   SurfaceId id;
   bool ground = false;
@@ -39,9 +39,15 @@ struct Hit {
 
 enum class Escape { hit, top, bottom, wrap_limit };
 
+struct IntersectorOptions {
+  int max_wraps = 1000;                     // of a ray in a periodic domain
+  std::uint64_t flatten_limit = 4'000'000;  // up to so many discs and triangles, instances are written out
+  double margin_m = -1;                     // of copies kept around a periodic cell; negative: chosen
+};
+
 class Intersector {
  public:
-  explicit Intersector(const Scene& scene);
+  explicit Intersector(const Scene& scene, const IntersectorOptions& options = {});
   ~Intersector();
   Intersector(const Intersector&) = delete;
   Intersector& operator=(const Intersector&) = delete;
@@ -49,7 +55,7 @@ class Intersector {
   Escape intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;  // anything between 0 and far (opaque or not)
 
-  float top_m() const;     // highest point of the scene (geometry and ground)
+  float top_m() const;  // highest point of the scene (geometry and ground)
   float bottom_m() const;
   Eigen::Vector2f cell_low_m() const;  // the domain cell, or the bounding box of an open scene
   Eigen::Vector2f cell_high_m() const;

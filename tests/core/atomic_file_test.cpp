@@ -27,7 +27,8 @@ TEST(AtomicFile, IsThereWholeOrNotAtAll) {
   EXPECT_EQ(read_file(path), "whole");
   write_file(path, "other", true);
   EXPECT_EQ(read_file(path), "other");
-  BPMS_EXPECT_ERROR(write_file(folder / "no/such/folder.txt", "x", false), missing_resource, "its folder does not exist");
+  BPMS_EXPECT_ERROR(write_file(folder / "no/such/folder.txt", "x", false), missing_resource,
+                    "its folder does not exist");
 }
 
 TEST(Provenance, HashesAreSha256) {

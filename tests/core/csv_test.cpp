@@ -30,8 +30,10 @@ TEST(Csv, ErrorsNameLineAndColumn) {
   BPMS_EXPECT_ERROR(CsvTable::parse("t.csv", "a,b\n1,1e300\n").number(0, 1), bad_input, "finite");
   BPMS_EXPECT_ERROR(CsvTable::parse("t.csv", "a,b\n1\n"), bad_input, "t.csv:2: 1 fields, expected 2");
   BPMS_EXPECT_ERROR(CsvTable::parse("t.csv", "a,a\n"), bad_input, "t.csv:1:3: the column 'a' stands twice");
-  BPMS_EXPECT_ERROR(CsvTable::parse("t.csv", "a,b\n1,\"x\n"), bad_input, "t.csv:2:3: a quoted field is never closed");
-  BPMS_EXPECT_ERROR(CsvTable::parse("t.csv", "plant,axis\n").require("plnat"), bad_input, "no column 'plnat' in the header; did you mean 'plant'?");
+  BPMS_EXPECT_ERROR(CsvTable::parse("t.csv", "a,b\n1,\"x\n"), bad_input,
+                    "t.csv:2:3: a quoted field is never closed");
+  BPMS_EXPECT_ERROR(CsvTable::parse("t.csv", "plant,axis\n").require("plnat"), bad_input,
+                    "no column 'plnat' in the header; did you mean 'plant'?");
 }
 
 TEST(Csv, FieldsRoundTrip) {

@@ -48,7 +48,9 @@ TEST(Random, SobolIsStratifiedInEveryDimension) {
       if (dimension < sobol_dimensions) plain.insert(static_cast<int>(sobol(i, dimension) >> 22));
       scrambled.insert(static_cast<int>(sobol_owen(i, dimension, 99) * n));
     }
-    if (dimension < sobol_dimensions) { EXPECT_EQ(plain.size(), n) << dimension; }
+    if (dimension < sobol_dimensions) {
+      EXPECT_EQ(plain.size(), n) << dimension;
+    }
     EXPECT_EQ(scrambled.size(), n) << dimension;
   }
 }
@@ -59,13 +61,15 @@ TEST(Random, FirstTwoDimensionsStratifyBoxes) {
   for (int split = 0; split <= 8; ++split) {
     std::set<std::pair<int, int>> boxes;
     for (std::uint32_t i = 0; i < n; ++i) {
-      boxes.insert({static_cast<int>(sobol_owen(i, 4, 7) * (1 << split)), static_cast<int>(sobol_owen(i, 5, 7) * (1 << (8 - split)))});
+      boxes.insert({static_cast<int>(sobol_owen(i, 4, 7) * (1 << split)),
+                    static_cast<int>(sobol_owen(i, 5, 7) * (1 << (8 - split)))});
     }
     EXPECT_EQ(boxes.size(), n) << split;
   }
 }
 
-// An integral whose variance under plain Monte Carlo is known falls much faster with scrambled points, without bias.
+// An integral whose variance under plain Monte Carlo is known falls much faster with scrambled points,
+// without bias.
 TEST(Random, ScrambledPointsIntegrateWithoutBias) {
   constexpr int scrambles = 64;
   constexpr std::uint32_t n = 256;
@@ -73,7 +77,9 @@ TEST(Random, ScrambledPointsIntegrateWithoutBias) {
   for (int s = 0; s < scrambles; ++s) {
     double mean = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
-      mean += std::exp(-sobol_owen(i, 0, static_cast<std::uint64_t>(s)) - sobol_owen(i, 1, static_cast<std::uint64_t>(s))) / n;
+      mean += std::exp(-sobol_owen(i, 0, static_cast<std::uint64_t>(s)) -
+                       sobol_owen(i, 1, static_cast<std::uint64_t>(s))) /
+              n;
     }
     sum += mean;
     sum2 += mean * mean;

@@ -28,12 +28,19 @@ TEST(Records, VectorsRoundTrip) {
 
 TEST(Records, BadRowsAreNamed) {
   const test::TemporaryFolder folder;
-  const auto read = [&](const std::string& rows) { read_image_points(folder.write("p.csv", points_header + rows)); };
-  BPMS_EXPECT_ERROR(read("1,1,1,leaf,midrib,1,a,left,1,2,0\n"), bad_input, "p.csv:2:32: found 0, expected a sigma above 0 px");
-  BPMS_EXPECT_ERROR(read("1,1,1,leaf,midrib,1,a,left,1,2,1\n1,1,1,leaf,midrib,1,a,left,1,2,1\n"), bad_input, "stands twice");
-  BPMS_EXPECT_ERROR(read("1,1,x,leaf,midrib,1,a,left,1,2,1\n"), bad_input, "p.csv:2:5: found 'x' in column 'rank'");
+  const auto read = [&](const std::string& rows) {
+    read_image_points(folder.write("p.csv", points_header + rows));
+  };
+  BPMS_EXPECT_ERROR(read("1,1,1,leaf,midrib,1,a,left,1,2,0\n"), bad_input,
+                    "p.csv:2:32: found 0, expected a sigma above 0 px");
+  BPMS_EXPECT_ERROR(read("1,1,1,leaf,midrib,1,a,left,1,2,1\n1,1,1,leaf,midrib,1,a,left,1,2,1\n"), bad_input,
+                    "stands twice");
+  BPMS_EXPECT_ERROR(read("1,1,x,leaf,midrib,1,a,left,1,2,1\n"), bad_input,
+                    "p.csv:2:5: found 'x' in column 'rank'");
   BPMS_EXPECT_ERROR(read(""), bad_input, "no points after the header");
-  const std::string bad = "plant,axis,rank,organ,feature,point,x_m,y_m,z_m,xx,xy,xz,yy,yz,zz\n1,1,1,leaf,midrib,1,0,0,0,1,2,0,1,0,1\n";
+  const std::string bad =
+      "plant,axis,rank,organ,feature,point,x_m,y_m,z_m,xx,xy,xz,yy,yz,zz\n1,1,1,leaf,midrib,1,0,0,0,1,2,0,1,"
+      "0,1\n";
   BPMS_EXPECT_ERROR(read_vectors(folder.write("v.csv", bad)), bad_input, "not positive semi-definite");
 }
 

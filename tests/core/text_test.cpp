@@ -15,7 +15,8 @@ using enum ErrorKind;
 TEST(Text, NumbersAreWholeFiniteAndLocaleFree) {
   EXPECT_EQ(parse_number("-1.5e3"), -1500.0);
   EXPECT_EQ(parse_number("+2"), 2.0);
-  for (const char* bad : {"", "nan", "inf", "1,5", "1.5x", "1e999", "0x10", " 1"}) EXPECT_FALSE(parse_number(bad)) << bad;
+  for (const char* bad : {"", "nan", "inf", "1,5", "1.5x", "1e999", "0x10", " 1"})
+    EXPECT_FALSE(parse_number(bad)) << bad;
   EXPECT_EQ(parse_integer("42"), 42);
   EXPECT_FALSE(parse_integer("4.2"));
 }
@@ -38,9 +39,12 @@ TEST(Text, BadFilesAreNamed) {
   BPMS_EXPECT_ERROR(read_text(folder / "absent"), missing_resource, "no such file");
   BPMS_EXPECT_ERROR(read_text(folder / "."), missing_resource, "is a folder");
   BPMS_EXPECT_ERROR(read_text(folder.write("e", " \n")), bad_input, "the file is empty");
-  BPMS_EXPECT_ERROR(read_text(folder.write("b", std::string("a\nb\0c", 5))), bad_input, "b:2: binary content");
-  BPMS_EXPECT_ERROR(read_number_table(folder.write("t", "1 2\n1 x\n"), 2, 2, "x y"), bad_input, "t:2:3: found 'x'");
-  BPMS_EXPECT_ERROR(read_number_table(folder.write("t", "1 2\n1\n3 4\n"), 2, 2, "x y"), bad_input, "t:2: 1 columns, expected 2");
+  BPMS_EXPECT_ERROR(read_text(folder.write("b", std::string("a\nb\0c", 5))), bad_input,
+                    "b:2: binary content");
+  BPMS_EXPECT_ERROR(read_number_table(folder.write("t", "1 2\n1 x\n"), 2, 2, "x y"), bad_input,
+                    "t:2:3: found 'x'");
+  BPMS_EXPECT_ERROR(read_number_table(folder.write("t", "1 2\n1\n3 4\n"), 2, 2, "x y"), bad_input,
+                    "t:2: 1 columns, expected 2");
 }
 
 TEST(Text, NearestWord) {

@@ -33,10 +33,12 @@ TEST(OrganRotation, TangentIsTheStatedVector) {
 
 TEST(OrganRotation, EachAngleTurnsTheStatedWay) {
   const double quarter = pi / 2;
-  EXPECT_LT((organ_rotation(quarter, 0, 0).col(2) - Eigen::Vector3d::UnitX()).norm(), 1e-15);  // leans outward
+  EXPECT_LT((organ_rotation(quarter, 0, 0).col(2) - Eigen::Vector3d::UnitX()).norm(),
+            1e-15);  // leans outward
   EXPECT_LT((organ_rotation(0, quarter, 0).col(2) + Eigen::Vector3d::UnitY()).norm(), 1e-15);
   EXPECT_LT((organ_rotation(0, 0, quarter).col(0) - Eigen::Vector3d::UnitY()).norm(), 1e-15);
-  // Azimuth turns about the local leaf normal: with the leaf lying along x, it sweeps in the horizontal plane.
+  // Azimuth turns about the local leaf normal: with the leaf lying along x, it sweeps in the horizontal
+  // plane.
   EXPECT_NEAR(organ_rotation(quarter, 0.4, 0).col(2).z(), 0, 1e-15);
 }
 
@@ -44,7 +46,8 @@ TEST(Midrib, EndPointsOfLinearInclination) {
   struct Case {
     double tip_deg, x, z;
   };
-  for (const Case& c : {Case{45, 3.72923, 9.00316}, {90, 6.36620, 6.36620}, {135, 7.24519, 3.00105}, {180, 6.36620, 0}}) {
+  for (const Case& c :
+       {Case{45, 3.72923, 9.00316}, {90, 6.36620, 6.36620}, {135, 7.24519, 3.00105}, {180, 6.36620, 0}}) {
     const MidribPoint tip = midrib(arching(c.tip_deg), {0, 0.5, 1}).back();
     EXPECT_NEAR(tip.x_m.x(), c.x, 5.1e-6) << c.tip_deg;
     EXPECT_NEAR(tip.x_m.y(), 0, 1e-12);

@@ -1,0 +1,77 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "apps/bpms/verb.h"
+#include "apps/bpms/verbs.h"
+#include "core/atomic_file.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "simulate/output/output.h"
+
+namespace bpms {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::string csv;
+  std::string target_se;
+  std::uint64_t samples = 0;
+};
+
+// OUT.png beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
+void write_quick_looks(const Cli& cli, const Simulation& simulation, const Result& result) {
+  for (const SensorResult& sensor : result.sensors) {
+    if (!sensor.sensor->is_image()) continue;
+    std::filesystem::path path = cli.common.output;
+    const std::string stem =
+        path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor.sensor->name : "");
+    path.replace_filename(stem + ".png");
+    write_file(path.string(), encode_png(quick_look(simulation, sensor)), cli.common.overwrite);
+  }
+}
+
+void run(const Cli& cli, const Options& options) {
+  const std::string& output = require_output(cli);
+  if (!options.csv.empty()) require_writable(options.csv, cli.common.overwrite);
+  Simulation simulation = read_simulation(options.scene);
+  if (!options.target_se.empty()) set_target_se(simulation.sampling, options.target_se, {"--target-se"});
+  if (options.samples > 0) {
+    simulation.sampling.samples = options.samples;
+    simulation.sampling.target_se = 0;
+  }
+  for (const std::string& line : simulation.scene.notes) note(line);
+  Provenance from = provenance(cli, true);
+  from.add_input(options.scene);
+  for (const std::string& input : simulation.inputs) from.add_input(input);
+
+  const Result result = simulate(simulation, cli.common.seed);
+  write_netcdf(simulation, result, from, output, cli.common.overwrite);
+  if (!options.csv.empty()) write_file(options.csv, result_csv(simulation, result), cli.common.overwrite);
+  write_quick_looks(cli, simulation, result);
+  deliver_report(cli, "simulate", result_report(simulation, result), from);
+  note(fmt::format("{} paths, {} rays in {:.1f} s; stopped by {}", result.samples, result.rays,
+                   result.seconds, result.stopped_by));
+  if (result.stopped_by == "interrupt")
+    throw Error(ErrorKind::interrupted,
+                fmt::format("interrupted; {} holds what was done, marked stopped_by = interrupt", output));
+}
+
+}  // namespace
+
+void add_simulate(Cli& cli) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = add_verb(
+      cli, "simulate", "trace light through a scene to its sensors: radiance, reflectance and their parts",
+      "bpms simulate scene.toml -o out.nc --csv out.csv --report out.html",
+      [&cli, options] { run(cli, *options); });
+  verb->add_option("scene", options->scene, "scene.toml")->required();
+  verb->add_option("--csv", options->csv, "the results as a tidy table");
+  verb->add_option("--samples", options->samples,
+                   "paths per view or pixel, instead of what the scene says (rounded up to 32 x 2^k)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000'000}));
+  verb->add_option("--target-se", options->target_se, "standard error of each view's total: 0.0002 or 0.1%")
+      ->excludes("--samples");
+}
+
+}  // namespace bpms

@@ -1,0 +1,15 @@
+// A first guess of cameras and poses from nothing but the corners: homographies of the flat board give each
+// camera's focal length (Zhang 2000, principal point at the centre) and the poses; each camera is then
+// adjusted alone, and the cameras are joined through the frames that they share by the relative pose that
+// agrees best with the others.
+#pragma once
+#include "calibrate/bundle_adjustment.h"
+#include "calibrate/observations.h"
+
+namespace bpms {
+
+// `parameters`: 4, 8, 9 or 12 for each camera. Throws when a camera shares no frame with the others.
+BundleState initial_estimate(const BundleProblem& problem,
+                             const std::vector<Observations::ObservedCamera>& cameras, int parameters);
+
+}  // namespace bpms

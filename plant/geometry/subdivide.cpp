@@ -1,0 +1,33 @@
+#include "plant/geometry/subdivide.h"
+
+#include <Eigen/Geometry>
+
+#include "plant/leaf_frame.h"
+
+namespace bpms {
+
+std::vector<double> first_nodes(const OrganAttributes& organ, double least_gap) {
+  int steps = 1;
+  for (const auto* function :
+       {&organ.f_inclination, &organ.f_azimuth, &organ.f_twist, &organ.f_curvature, &organ.f_width}) {
+    if (*function && (*function)->breaks().empty()) steps = std::max({steps, 4, (*function)->coefficients()});
+  }
+  std::vector<double> wanted = organ_breaks(organ);
+  for (int i = 1; i < steps; ++i) wanted.push_back(static_cast<double>(i) / steps);
+  std::ranges::sort(wanted);
+  std::vector<double> out{0};
+  for (const double l : wanted) {
+    if (l - out.back() > least_gap && 1 - l > least_gap) out.push_back(l);
+  }
+  out.push_back(1);
+  return out;
+}
+
+double distance_from_line(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d along = b - a;
+  const double length = along.norm();
+  if (length < 1e-12) return (point - a).norm();
+  return (point - a).cross(along).norm() / length;
+}
+
+}  // namespace bpms

@@ -1,0 +1,26 @@
+#include <cmath>
+
+#include "core/units.h"
+#include "simulate/light/light.h"
+
+namespace bpms {
+
+Sun read_sun(const TomlValue& table, const Domain& domain, const Bands& bands,
+             std::vector<std::string>& inputs) {
+  Sun out;
+  const TomlValue zenith = table.require("zenith_deg");
+  out.zenith_deg = zenith.number();
+  if (!(out.zenith_deg >= 0.0 && out.zenith_deg < 90.0))
+    zenith.reject(fmt::format("sun.zenith_deg is {}: expected 0 <= zenith < 90, a sun above the horizon",
+                              out.zenith_deg));
+  out.azimuth_deg = table.require("azimuth_deg").number(-360.0, 360.0);
+  out.direction = direction_from_angles(radians(out.zenith_deg), radians(out.azimuth_deg), domain);
+  const TomlValue irradiance = table.require("irradiance");
+  if (irradiance.is_string() && irradiance.string() == "brf")
+    out.irradiance.assign(bands.count(), pi / std::cos(radians(out.zenith_deg)));
+  else
+    out.irradiance = read_spectrum(irradiance, bands, 0.0, brightest, inputs);
+  return out;
+}
+
+}  // namespace bpms

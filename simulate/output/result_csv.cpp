@@ -1,0 +1,100 @@
+#include <limits>
+
+#include "core/csv.h"
+#include "simulate/output/output.h"
+#include "simulate/output/quantity.h"
+
+namespace bpms {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+class Rows {
+ public:
+  Rows(const Simulation& simulation, const Sensor& sensor) : simulation_(&simulation), sensor_(&sensor) {}
+
+  // band < 0, order < 0, material < 0: the column does not apply.
+  void add(const char* quantity, std::size_t view, int band, const std::string& origin,
+           const std::string& component, int order, int material, double value, double error) {
+    const auto& light = simulation_->light;
+    const auto& nm = simulation_->bands.wavelengths_nm;
+    std::string& out = text;
+    out += quantity;
+    field(csv_field(sensor_->name));
+    field(band < 0 ? "" : std::to_string(band + 1));
+    field(csv_number(band < 0 || nm.empty() ? none : nm[static_cast<std::size_t>(band)]));
+    field(csv_number(light.sun ? light.sun->zenith_deg : none));
+    field(csv_number(light.sun ? light.sun->azimuth_deg : none));
+    field(csv_number(sensor_->vza_deg(view)));
+    field(csv_number(sensor_->vaa_deg(view)));
+    field(origin);
+    field(component);
+    field(order < 0 ? "" : std::to_string(order));
+    field(material < 0 ? "" : csv_field(simulation_->materials[static_cast<std::size_t>(material)].name));
+    field(csv_number(value));
+    field(csv_number(error));
+    out += '\n';
+  }
+  std::string text;
+
+ private:
+  void field(const std::string& value) {
+    text += ',';
+    text += value;
+  }
+  const Simulation* simulation_;
+  const Sensor* sensor_;
+};
+
+void add_parts(const Simulation& simulation, const SensorResult& result, std::size_t view, Rows& rows) {
+  const std::size_t bands = simulation.bands.count();
+  for (std::size_t p = 0; p < result.parts.size(); ++p) {
+    const Part& part = result.parts[p];
+    const bool is_total = part.component == Component::all && part.order == every_order;
+    if (bands > split_bands && !is_total) continue;
+    const std::vector<double> scale = reflectance_scale(simulation.light, part.origin, bands);
+    for (std::size_t band = 0; band < bands; ++band) {
+      const std::size_t i = view * bands + band;
+      const double value = result.radiance[p].value[i], error = result.radiance[p].standard_error[i];
+      const auto add = [&](const char* quantity, double by) {
+        rows.add(quantity, view, static_cast<int>(band), name_of(part.origin), name_of(part.component),
+                 part.order, -1, value * by, error * by);
+      };
+      add(reflectance_name(simulation.light), scale[band]);
+      if (is_total) add("radiance", 1);
+    }
+  }
+}
+
+void add_fractions(const Simulation& simulation, const SensorResult& result, std::size_t view, Rows& rows) {
+  const auto add = [&](const char* quantity, const Estimates& of, std::size_t index, int material) {
+    rows.add(quantity, view, -1, "", "", -1, material, of.value[index], of.standard_error[index]);
+  };
+  add("gap", result.gap, view, -1);
+  const std::size_t materials = simulation.materials.size();
+  for (std::size_t m = 0; m < materials && simulation.light.sun; ++m) {
+    add("fraction_sunlit", result.sunlit, view * materials + m, static_cast<int>(m));
+    add("fraction_shaded", result.shaded, view * materials + m, static_cast<int>(m));
+  }
+}
+
+}  // namespace
+
+std::string result_csv(const Simulation& simulation, const Result& result) {
+  std::string out =
+      "quantity,sensor,band,wavelength_nm,sza_deg,saa_deg,vza_deg,vaa_deg,origin,component,order,material,"
+      "value,standard_error\n";
+  for (const SensorResult& sensor : result.sensors) {
+    if (sensor.sensor->is_image()) continue;  // pixels are in the NetCDF
+    Rows rows(simulation, *sensor.sensor);
+    for (std::size_t view = 0; view < sensor.samples.size(); ++view) {
+      if (sensor.samples[view] == 0) continue;
+      add_parts(simulation, sensor, view, rows);
+      add_fractions(simulation, sensor, view, rows);
+    }
+    out += rows.text;
+  }
+  return out;
+}
+
+}  // namespace bpms

@@ -1,0 +1,268 @@
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "simulate/output/netcdf.h"
+#include "simulate/output/output.h"
+#include "simulate/output/quantity.h"
+
+namespace bpms {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// Writes the variables of one sensor.
+class SensorVariables {
+ public:
+  SensorVariables(const Simulation& simulation, const SensorResult& result, NetcdfWriter& file,
+                  std::string prefix)
+      : simulation_(simulation),
+        result_(result),
+        file_(file),
+        prefix_(std::move(prefix)),
+        bands_(simulation.bands.count()) {
+    const Sensor& sensor = *result.sensor;
+    if (sensor.is_image()) {
+      views_ = {prefix_ + "y", prefix_ + "x"};
+      file_.dimension(views_[0], static_cast<std::size_t>(sensor.height()));
+      file_.dimension(views_[1], static_cast<std::size_t>(sensor.width()));
+    } else {
+      views_ = {prefix_ + "view"};
+      file_.dimension(views_[0], sensor.views());
+    }
+  }
+
+  void write() {
+    if (!result_.sensor->is_image()) write_angles();
+    for (const bool reflectance : {true, false}) {
+      if (reflectance && result_.sensor->is_image()) continue;
+      write_totals(reflectance);
+      write_axis(reflectance, "component", components(), parts_of_components());
+      write_orders(reflectance);
+    }
+    write_fractions();
+    std::vector<long long> samples(result_.samples.begin(), result_.samples.end());
+    file_.integers(prefix_ + "samples", views_, samples, {{"long_name", "paths traced"}});
+    if (!result_.truncation.empty())
+      file_.variable(
+          prefix_ + "truncation_bias", with(views_, "band"), result_.truncation,
+          {{"long_name",
+            "radiance above max_order left out, estimated from the decay of the last two orders"}});
+  }
+
+ private:
+  using Words = std::vector<std::string>;
+  static Words with(Words to, const std::string& more) {
+    to.push_back(more);
+    return to;
+  }
+  Origin main_origin() const {
+    return simulation_.light.sun && simulation_.light.sky ? Origin::direct : Origin::total;
+  }
+
+  void write_angles() {
+    std::vector<double> vza, vaa, sza, saa;
+    const auto& sun = simulation_.light.sun;
+    for (std::size_t view = 0; view < result_.sensor->views(); ++view) {
+      vza.push_back(result_.sensor->vza_deg(view));
+      vaa.push_back(result_.sensor->vaa_deg(view));
+    }
+    const auto put = [&](const std::string& name, const std::vector<double>& values, const std::string& what,
+                         const std::string& standard) {
+      file_.variable(prefix_ + name, views_, values,
+                     {{"units", "degree"}, {"long_name", what}, {"standard_name", standard}});
+    };
+    put("vza", vza, "view zenith angle, towards the sensor; signed in a plane, negative on the sun's side",
+        "sensor_zenith_angle");
+    put("vaa", vaa, "view azimuth angle, towards the sensor", "sensor_azimuth_angle");
+    if (!prefix_.empty()) return;
+    sza.assign(vza.size(), sun ? sun->zenith_deg : none);
+    saa.assign(vza.size(), sun ? sun->azimuth_deg : none);
+    put("sza", sza, "sun zenith angle, towards the sun", "solar_zenith_angle");
+    put("saa", saa, "sun azimuth angle, towards the sun", "solar_azimuth_angle");
+  }
+
+  // One part as it is written: per view and band, NaN where nothing was traced.
+  void fill(std::size_t part, bool reflectance, std::vector<double>& value, std::vector<double>& error,
+            std::size_t offset, std::size_t stride) const {
+    const std::vector<double> scale =
+        reflectance ? reflectance_scale(simulation_.light, result_.parts[part].origin, bands_)
+                    : std::vector<double>(bands_, 1.0);
+    for (std::size_t view = 0; view < result_.samples.size(); ++view) {
+      for (std::size_t band = 0; band < bands_; ++band) {
+        const std::size_t from = view * bands_ + band, to = from * stride + offset;
+        const bool known = result_.samples[view] > 0;
+        value[to] = known ? result_.radiance[part].value[from] * scale[band] : none;
+        error[to] = known ? result_.radiance[part].standard_error[from] * scale[band] : none;
+      }
+    }
+  }
+
+  void put(const std::string& name, const Words& dimensions, const std::vector<double>& value,
+           const std::vector<double>& error, const std::string& what, const std::string& units) {
+    Words coordinates = {"wavelength", prefix_ + "vza", prefix_ + "vaa"};
+    std::string list;
+    if (!result_.sensor->is_image())
+      for (const std::string& word : coordinates) list += (list.empty() ? "" : " ") + word;
+    NetcdfAttributes attributes{
+        {"units", units}, {"long_name", what}, {"ancillary_variables", prefix_ + name + "_se"}};
+    NetcdfAttributes of_error{{"units", units}, {"long_name", "standard error of " + what}};
+    if (!list.empty()) {
+      attributes.emplace_back("coordinates", list);
+      of_error.emplace_back("coordinates", list);
+    }
+    file_.variable(prefix_ + name, dimensions, value, attributes);
+    file_.variable(prefix_ + name + "_se", dimensions, error, of_error);
+  }
+
+  std::string quantity(bool reflectance) const {
+    return reflectance ? reflectance_name(simulation_.light) : "radiance";
+  }
+  std::string words_for(bool reflectance) const {
+    if (!reflectance) return "spectral radiance towards the sensor";
+    return simulation_.light.sky ? "hemispherical-directional reflectance factor"
+                                 : "bidirectional reflectance factor";
+  }
+  std::string units(bool reflectance) const { return reflectance ? "1" : "W m-2 sr-1 um-1"; }
+
+  void write_parts(bool reflectance, const std::string& suffix, const std::string& axis,
+                   const std::vector<std::size_t>& parts, const std::string& what) {
+    if (parts.empty()) return;
+    const std::size_t count = result_.samples.size() * bands_;
+    const std::size_t stride = axis.empty() ? 1 : parts.size();
+    std::vector<double> value(count * stride), error(count * stride);
+    for (std::size_t i = 0; i < parts.size(); ++i) fill(parts[i], reflectance, value, error, i, stride);
+    Words dimensions = with(views_, "band");
+    if (!axis.empty()) dimensions.push_back(axis);
+    put(quantity(reflectance) + suffix, dimensions, value, error, words_for(reflectance) + what,
+        units(reflectance));
+  }
+
+  void write_totals(bool reflectance) {
+    write_parts(reflectance, "", "", {0}, "");
+    std::vector<std::size_t> by_origin = parts_with(result_, Origin::total, Component::all, false);
+    for (const Origin origin : {Origin::direct, Origin::diffuse})
+      for (const std::size_t p : parts_with(result_, origin, Component::all, false)) by_origin.push_back(p);
+    if (by_origin.size() > 1)
+      write_parts(reflectance, "_by_origin", "origin", by_origin, " by origin of the light");
+  }
+  static Words components() { return {"uc_sgl", "co_sgl", "mlt"}; }
+  std::vector<std::size_t> parts_of_components() const {
+    std::vector<std::size_t> out;
+    for (const Component c : {Component::uc_sgl, Component::co_sgl, Component::mlt})
+      for (const std::size_t p : parts_with(result_, main_origin(), c, false)) out.push_back(p);
+    return out;
+  }
+  void write_axis(bool reflectance, const std::string& axis, const Words& names,
+                  const std::vector<std::size_t>& parts) {
+    if (parts.size() == names.size())
+      write_parts(reflectance, "_by_" + axis, axis, parts, " of direct light by " + axis);
+  }
+  void write_orders(bool reflectance) {
+    write_parts(reflectance, "_by_order", prefix_ + "order", define_orders(), " by scattering order");
+    for (const Origin origin : {Origin::direct, Origin::diffuse})
+      write_parts(reflectance, std::string("_") + name_of(origin) + "_by_order", prefix_ + "order",
+                  parts_with(result_, origin, Component::all, true),
+                  std::string(" of ") + name_of(origin) + " light by scattering order");
+  }
+  std::vector<std::size_t> define_orders() {
+    const std::vector<std::size_t> parts = parts_with(result_, Origin::total, Component::all, true);
+    if (parts.empty() || orders_defined_) return parts;
+    orders_defined_ = true;
+    std::vector<double> orders;
+    for (const std::size_t p : parts) orders.push_back(result_.parts[p].order);
+    file_.dimension(prefix_ + "order", orders.size());
+    file_.variable(
+        prefix_ + "order", {prefix_ + "order"}, orders,
+        {{"long_name", "scattering order (interactions with matter); the last holds all higher ones"},
+         {"units", "1"}});
+    return parts;
+  }
+
+  void write_fractions() {
+    const auto put_fraction = [&](const std::string& name, const Words& dimensions, const Estimates& of,
+                                  const std::string& what) {
+      std::vector<double> value = of.value, error = of.standard_error;
+      const std::size_t each = value.size() / std::max<std::size_t>(1, result_.samples.size());
+      for (std::size_t i = 0; i < value.size(); ++i)
+        if (result_.samples[i / each] == 0) value[i] = error[i] = none;
+      file_.variable(prefix_ + name, dimensions, value,
+                     {{"units", "1"}, {"long_name", what}, {"ancillary_variables", prefix_ + name + "_se"}});
+      file_.variable(prefix_ + name + "_se", dimensions, error,
+                     {{"units", "1"}, {"long_name", "standard error of " + what}});
+    };
+    put_fraction("gap", views_, result_.gap, "fraction of view that meets no canopy");
+    if (!simulation_.light.sun || simulation_.materials.empty()) return;
+    put_fraction("fraction_sunlit", with(views_, "material"), result_.sunlit,
+                 "fraction of view that is sunlit, by material met first");
+    put_fraction("fraction_shaded", with(views_, "material"), result_.shaded,
+                 "fraction of view that is shaded, by material met first");
+  }
+
+  const Simulation& simulation_;
+  const SensorResult& result_;
+  NetcdfWriter& file_;
+  std::string prefix_;
+  std::size_t bands_;
+  Words views_;
+  bool orders_defined_ = false;
+};
+
+void write_globals(NetcdfWriter& file, const Simulation& simulation, const Result& result,
+                   const Provenance& provenance) {
+  file.global("Conventions", "CF-1.8");
+  file.global("title", "radiance simulated by bpms");
+  file.global("source", "bpms " + version());
+  file.global("version", version());
+  file.global("command", provenance.command);
+  file.global("history", provenance.command);
+  file.global("seed", std::to_string(result.seed));
+  std::string inputs;
+  for (const auto& input : provenance.inputs)
+    inputs += (inputs.empty() ? "" : "\n") + input.sha256 + "  " + input.path;
+  file.global("inputs_sha256", inputs);
+  file.global("stopped_by", result.stopped_by);
+  file.global("complete", result.stopped_by == "interrupt" ? "no: interrupted" : "yes");
+  file.global("azimuth_convention", simulation.scene.domain.azimuth_north_clockwise
+                                        ? "clockwise from north (y)"
+                                        : "counter-clockwise from east (x)");
+  file.global("angle_convention",
+              "zenith and azimuth from the target: sza, saa towards the sun, vza, vaa towards the sensor; in "
+              "a plane vza is "
+              "negative on the sun's side");
+  file.global("standard_error", "one standard deviation, from 32 independent scrambles");
+}
+
+}  // namespace
+
+void write_netcdf(const Simulation& simulation, const Result& result, const Provenance& provenance,
+                  const std::string& path, bool overwrite) {
+  NetcdfWriter file(path, overwrite);
+  write_globals(file, simulation, result, provenance);
+  const auto& nm = simulation.bands.wavelengths_nm;
+  file.dimension("band", simulation.bands.count());
+  file.variable("wavelength", {"band"}, nm.empty() ? std::vector<double>{none} : nm,
+                {{"units", "nm"}, {"long_name", "wavelength"}, {"standard_name", "radiation_wavelength"}});
+  if (simulation.light.sun && simulation.light.sky) {
+    file.dimension("origin", 3);
+    file.words("origin", "origin", {"total", "direct", "diffuse"},
+               {{"long_name", "source that the light came from"}});
+  }
+  if (simulation.light.sun) {
+    file.dimension("component", 3);
+    file.words("component", "component", {"uc_sgl", "co_sgl", "mlt"},
+               {{"long_name", "single scattering by the ground, by the canopy; multiple scattering"}});
+  }
+  if (!simulation.materials.empty()) {
+    std::vector<std::string> names;
+    for (const Material& material : simulation.materials) names.push_back(material.name);
+    file.dimension("material", names.size());
+    file.words("material", "material", names, {{"long_name", "material"}});
+  }
+  for (const SensorResult& sensor : result.sensors)
+    SensorVariables(simulation, sensor, file, simulation.sensors.size() == 1 ? "" : sensor.sensor->name + "_")
+        .write();
+  file.commit();
+}
+
+}  // namespace bpms

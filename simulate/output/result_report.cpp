@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/base64.h"
+#include "simulate/output/output.h"
+#include "simulate/output/quantity.h"
+
+namespace bpms {
+namespace {
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+Json wavelength(const Bands& bands, std::size_t band) {
+  return bands.wavelengths_nm.empty() ? Json(nullptr) : Json(bands.wavelengths_nm[band]);
+}
+Json sun_angle(const Light& light, bool zenith) {
+  if (!light.sun) return nullptr;
+  return zenith ? light.sun->zenith_deg : light.sun->azimuth_deg;
+}
+
+struct Curve {
+  Json vza = Json::array(), vaa = Json::array(), value = Json::array(), error = Json::array();
+};
+
+// Over the views that were traced; stride and offset pick from what is kept per view, scale makes the
+// quantity.
+Curve curve_over_views(const SensorResult& result, const Estimates& of, std::size_t stride,
+                       std::size_t offset, double scale) {
+  Curve out;
+  for (std::size_t view = 0; view < result.samples.size(); ++view) {
+    if (result.samples[view] == 0) continue;
+    out.vza.push_back(number(result.sensor->vza_deg(view)));
+    out.vaa.push_back(number(result.sensor->vaa_deg(view)));
+    out.value.push_back(number(of.value[view * stride + offset] * scale));
+    out.error.push_back(number(of.standard_error[view * stride + offset] * scale));
+  }
+  return out;
+}
+
+Json series_of(const Simulation& simulation, const SensorResult& result, const std::string& quantity,
+               Json band, Json nm, const Part* part, Json material, const Curve& curve) {
+  return {{"sensor", result.sensor->name},
+          {"quantity", quantity},
+          {"band", std::move(band)},
+          {"wavelength_nm", std::move(nm)},
+          {"origin", part ? Json(name_of(part->origin)) : Json(nullptr)},
+          {"component", part ? Json(name_of(part->component)) : Json(nullptr)},
+          {"order", part && part->order != every_order ? Json(part->order) : Json(nullptr)},
+          {"material", std::move(material)},
+          {"sza_deg", sun_angle(simulation.light, true)},
+          {"saa_deg", sun_angle(simulation.light, false)},
+          {"vza_deg", curve.vza},
+          {"vaa_deg", curve.vaa},
+          {"value", curve.value},
+          {"standard_error", curve.error}};
+}
+
+void add_series(const Simulation& simulation, const SensorResult& result, Json& out) {
+  const std::size_t bands = simulation.bands.count(), materials = simulation.materials.size();
+  constexpr int orders_shown = 10;
+  for (std::size_t p = 0; p < result.parts.size() && bands <= split_bands; ++p) {
+    const Part& part = result.parts[p];
+    if (part.order > orders_shown) continue;
+    const std::vector<double> scale = reflectance_scale(simulation.light, part.origin, bands);
+    for (std::size_t band = 0; band < bands; ++band)
+      out.push_back(series_of(simulation, result, reflectance_name(simulation.light), band + 1,
+                              wavelength(simulation.bands, band), &part, nullptr,
+                              curve_over_views(result, result.radiance[p], bands, band, scale[band])));
+  }
+  out.push_back(series_of(simulation, result, "gap", nullptr, nullptr, nullptr, nullptr,
+                          curve_over_views(result, result.gap, 1, 0, 1)));
+  for (std::size_t m = 0; m < materials && simulation.light.sun; ++m) {
+    const auto add = [&](const char* quantity, const Estimates& of) {
+      out.push_back(series_of(simulation, result, quantity, nullptr, nullptr, nullptr,
+                              simulation.materials[m].name, curve_over_views(result, of, materials, m, 1)));
+    };
+    add("fraction_sunlit", result.sunlit);
+    add("fraction_shaded", result.shaded);
+  }
+}
+
+void add_spectra(const Simulation& simulation, const SensorResult& result, Json& out) {
+  const std::size_t bands = simulation.bands.count();
+  if (bands <= split_bands) return;
+  const std::vector<double> scale = reflectance_scale(simulation.light, Origin::total, bands);
+  for (std::size_t view = 0; view < result.samples.size(); ++view) {
+    if (result.samples[view] == 0) continue;
+    Json nm = Json::array(), value = Json::array(), error = Json::array();
+    for (std::size_t band = 0; band < bands; ++band) {
+      nm.push_back(wavelength(simulation.bands, band));
+      value.push_back(number(result.radiance[0].value[view * bands + band] * scale[band]));
+      error.push_back(number(result.radiance[0].standard_error[view * bands + band] * scale[band]));
+    }
+    out.push_back({{"sensor", result.sensor->name},
+                   {"quantity", reflectance_name(simulation.light)},
+                   {"vza_deg", number(result.sensor->vza_deg(view))},
+                   {"vaa_deg", number(result.sensor->vaa_deg(view))},
+                   {"sza_deg", sun_angle(simulation.light, true)},
+                   {"wavelength_nm", nm},
+                   {"value", value},
+                   {"standard_error", error}});
+  }
+}
+
+Json sensor_summary(const Simulation& simulation, const SensorResult& result) {
+  const std::size_t bands = simulation.bands.count();
+  double worst = 0;
+  std::uint64_t samples = 0;
+  Json per_view = Json::array();
+  const std::vector<double> scale = reflectance_scale(simulation.light, Origin::total, bands);
+  for (std::size_t view = 0; view < result.samples.size(); ++view) {
+    samples += result.samples[view];
+    if (!result.sensor->is_image()) per_view.push_back(result.samples[view]);
+    for (std::size_t band = 0; band < bands; ++band)
+      worst = std::max(worst, result.radiance[0].standard_error[view * bands + band] * scale[band]);
+  }
+  Json out{{"name", result.sensor->name},
+           {"type", result.sensor->type},
+           {"views", result.samples.size()},
+           {"samples", samples},
+           {"rays", result.rays},
+           {"lost_paths", result.lost},
+           {"largest_standard_error", number(worst)}};
+  if (!per_view.empty()) out["samples_per_view"] = per_view;
+  if (!result.truncation.empty()) {
+    double most = 0;
+    bool known = false;
+    for (std::size_t i = 0; i < result.truncation.size(); ++i) {
+      if (!std::isfinite(result.truncation[i])) continue;
+      known = true;
+      most = std::max(most, result.truncation[i] * scale[i % bands]);
+    }
+    out["largest_truncation_bias"] = known ? Json(most) : Json(nullptr);
+  }
+  return out;
+}
+
+}  // namespace
+
+Json result_report(const Simulation& simulation, const Result& result) {
+  Json sensors = Json::array(), series = Json::array(), spectra = Json::array(), images = Json::array();
+  for (const SensorResult& sensor : result.sensors) {
+    sensors.push_back(sensor_summary(simulation, sensor));
+    if (sensor.sensor->is_image()) {
+      const RgbImage image = quick_look(simulation, sensor);
+      images.push_back({{"sensor", sensor.sensor->name},
+                        {"caption", sensor.sensor->name + ", " + std::to_string(image.width) + " x " +
+                                        std::to_string(image.height)},
+                        {"width", image.width},
+                        {"height", image.height},
+                        {"data_uri", "data:image/png;base64," + base64(encode_png(image))}});
+    } else {
+      add_series(simulation, sensor, series);
+      add_spectra(simulation, sensor, spectra);
+    }
+  }
+  return {{"sensors", sensors},  {"samples", result.samples}, {"seconds", result.seconds},
+          {"rays", result.rays}, {"threads", result.threads}, {"stopped_by", result.stopped_by},
+          {"seed", result.seed}, {"version", version()},      {"series", series},
+          {"spectra", spectra},  {"images", images}};
+}
+
+}  // namespace bpms

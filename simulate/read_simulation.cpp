@@ -1,0 +1,108 @@
+#include <map>
+
+#include "core/text.h"
+#include "simulate/simulate.h"
+
+namespace bpms {
+namespace {
+
+constexpr double most_samples = 1e15;
+
+std::uint64_t count_of(const TomlValue& value) {
+  return static_cast<std::uint64_t>(value.integer(1, static_cast<long long>(most_samples)));
+}
+
+Sampling read_sampling(const TomlValue& table) {
+  Sampling out;
+  const TomlValue target = table.get("target_se");
+  const TomlValue samples = table.get("samples");
+  if (static_cast<bool>(target) == static_cast<bool>(samples))
+    table.reject("expected one of target_se and samples");
+  if (target)
+    set_target_se(out, target.is_string() ? target.string() : fmt::format("{}", target.number()),
+                  target.where());
+  if (samples) out.samples = count_of(samples);
+  if (const TomlValue most = table.get("max_samples")) out.max_samples = count_of(most);
+  if (const TomlValue most = table.get("max_seconds")) out.max_seconds = most.positive();
+  if (const TomlValue order = table.get("max_order"))
+    out.max_order = static_cast<int>(order.integer(0, 100000));
+  if (const TomlValue orders = table.get("orders")) out.orders = static_cast<int>(orders.integer(1, 1000));
+  out.roulette = table.boolean_or("roulette", true);
+  if (const TomlValue share = table.get("share_paths"))
+    if (share.boolean()) share.reject("sharing paths between views is not built yet: expected false");
+  return out;
+}
+
+std::vector<Material> read_materials(const TomlValue& table, const Scene& scene, const Bands& bands,
+                                     std::vector<std::string>& inputs) {
+  std::map<std::string, Material> known;
+  if (table)
+    for (const std::string& name : table.keys())
+      known[name] = read_material(table.require(name), name, bands, inputs);
+  std::vector<Material> out;
+  for (const std::string& name : scene.materials) {
+    if (!known.contains(name)) table.reject(fmt::format("no [materials.{}], which the geometry uses", name));
+    out.push_back(known.at(name));
+  }
+  return out;
+}
+
+}  // namespace
+
+void set_target_se(Sampling& sampling, const std::string& text, const SourceLocation& where) {
+  const bool percent = text.ends_with('%');
+  const auto number = parse_number(percent ? text.substr(0, text.size() - 1) : text);
+  if (!number || !(*number > 0))
+    bad_input(where, "target_se is {}: expected a number above 0, or a percentage such as \"0.1%\"",
+              in_quotes(text));
+  sampling.target_se = percent ? *number / 100.0 : *number;
+  sampling.relative = percent;
+  sampling.samples = 0;
+}
+
+Simulation read_simulation(const std::string& path) {
+  const TomlDocument document = TomlDocument::read(path);
+  const TomlValue root = document.root();
+  Simulation out;
+  out.scene = read_scene_geometry(document);
+  out.inputs = out.scene.inputs;
+  out.bands = read_bands(root.get("bands"));
+  out.materials = read_materials(root.get("materials"), out.scene, out.bands, out.inputs);
+  out.light = read_light(root.require("illumination"), out.scene.domain, out.bands, out.inputs);
+  const TomlValue sensors = root.require("sensors");
+  if (!sensors.is_array() || sensors.size() == 0) sensors.reject("expected at least one [[sensors]]");
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    out.sensors.push_back(read_sensor(sensors[i], out.scene.domain, out.light));
+    for (std::size_t k = 0; k < i; ++k)
+      if (out.sensors[k]->name == out.sensors[i]->name)
+        sensors[i].require("name").reject(fmt::format("a second sensor named \"{}\"", out.sensors[i]->name));
+  }
+  out.sampling = read_sampling(root.require("sampling"));
+  document.finish();
+  return out;
+}
+
+const char* name_of(Origin origin) {
+  return origin == Origin::total ? "total" : origin == Origin::direct ? "direct" : "diffuse";
+}
+
+const char* name_of(Component component) {
+  switch (component) {
+    case Component::all:
+      return "all";
+    case Component::uc_sgl:
+      return "uc_sgl";
+    case Component::co_sgl:
+      return "co_sgl";
+    case Component::mlt:
+      return "mlt";
+  }
+  return "";
+}
+
+void Estimates::resize(std::size_t size) {
+  value.assign(size, 0.0);
+  standard_error.assign(size, 0.0);
+}
+
+}  // namespace bpms

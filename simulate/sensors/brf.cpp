@@ -1,0 +1,114 @@
+// Whole-domain orthographic view: samples the horizontal cell at the canopy top uniformly and follows
+// parallel rays down. In an open domain the footprint lies at the reference height: "top" (as RAMI), "ground"
+// or metres.
+#include <cmath>
+
+#include "core/units.h"
+#include "simulate/sensors/sensor.h"
+
+namespace bpms {
+namespace {
+
+constexpr double steepest_deg = 89.0;  // beyond, a ray crosses a periodic domain more often than makes sense
+
+struct View {
+  double vza_deg, vaa_deg;
+  Eigen::Vector3d to_sensor;
+};
+
+class BrfSensor : public Sensor {
+ public:
+  std::vector<View> list;
+  enum class Reference { top, ground, metres } reference = Reference::top;
+  double reference_m = 0;
+
+  std::size_t views() const override { return list.size(); }
+  double vza_deg(std::size_t view) const override { return list[view].vza_deg; }
+  double vaa_deg(std::size_t view) const override { return list[view].vaa_deg; }
+
+  Ray start(std::size_t view, double u, double v, const Extent& extent) const override {
+    const Eigen::Vector3d& up = list[view].to_sensor;
+    const double height = reference == Reference::top      ? extent.top_m
+                          : reference == Reference::ground ? extent.bottom_m
+                                                           : reference_m;
+    const Eigen::Vector2d at =
+        extent.low_m + (extent.high_m - extent.low_m).cwiseProduct(Eigen::Vector2d(u, v));
+    const double margin =
+        1e-4 * (1.0 + std::abs(extent.top_m));  // the highest point itself is seen from outside
+    const double rise = std::max(0.0, extent.top_m - height) + margin;
+    const Eigen::Vector3d origin = Eigen::Vector3d(at.x(), at.y(), height) + up * (rise / up.z());
+    Ray out;
+    out.origin = origin.cast<float>();
+    out.direction = (-up).cast<float>();
+    return out;
+  }
+};
+
+double within_sight(double vza_deg, const TomlValue& where) {
+  if (!(std::abs(vza_deg) <= steepest_deg))
+    where.reject(
+        fmt::format("view zenith {} degrees: expected at most {} from the vertical", vza_deg, steepest_deg));
+  return vza_deg;
+}
+
+std::vector<double> read_zeniths(const TomlValue& value) {
+  std::vector<double> out;
+  if (value.is_table()) {
+    const double from = within_sight(value.require("from").number(), value.require("from"));
+    const double to = within_sight(value.require("to").number(), value.require("to"));
+    const double step = value.require("step").positive();
+    if (to < from) value.require("to").reject(fmt::format("{} lies before from = {}", to, from));
+    constexpr double most = 100000;
+    if ((to - from) / step > most) value.require("step").reject("expected at most 100 000 views");
+    const auto count = static_cast<std::size_t>(std::floor((to - from) / step + 1e-9)) + 1;
+    for (std::size_t i = 0; i < count; ++i) out.push_back(from + static_cast<double>(i) * step);
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) out.push_back(within_sight(value[i].number(), value[i]));
+    if (out.empty()) value.reject("expected at least one view zenith");
+  } else {
+    out.push_back(within_sight(value.number(), value));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const Domain& domain, const Light& light) {
+  auto out = std::make_unique<BrfSensor>();
+  const auto add = [&](double vza_deg, double vaa_deg) {
+    out->list.push_back(
+        {vza_deg, vaa_deg, direction_from_angles(radians(vza_deg), radians(vaa_deg), domain)});
+  };
+  const TomlValue plane = table.get("plane");
+  const TomlValue views = table.get("views");
+  const TomlValue zeniths = table.get("vza_deg");
+  if (static_cast<bool>(plane) == static_cast<bool>(views))
+    table.reject("expected one of plane = \"principal\" | \"cross\" and views = [[vza, vaa], ...]");
+  if (plane) {
+    const std::string name = plane.one_of({"principal", "cross"});
+    if (!light.sun)
+      plane.reject("the principal and the cross plane need a sun: give views = [[vza, vaa], ...]");
+    const double turn = name == "principal" ? 180.0 : 90.0;
+    for (const double vza : read_zeniths(table.require("vza_deg"))) add(vza, light.sun->azimuth_deg + turn);
+  } else {
+    if (zeniths) zeniths.reject("views already say their zeniths: expected vza_deg with plane only");
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const std::vector<double> pair = views[i].numbers(2);
+      add(within_sight(pair[0], views[i]), pair[1]);
+    }
+    if (out->list.empty()) views.reject("expected at least one [vza, vaa]");
+  }
+  if (const TomlValue height = table.get("reference_height")) {
+    if (domain.periodic) height.reject("a periodic domain has no reference height: every one sees the same");
+    if (height.is_string()) {
+      const std::string name = height.one_of({"top", "ground"});
+      out->reference = name == "top" ? BrfSensor::Reference::top : BrfSensor::Reference::ground;
+    } else {
+      out->reference = BrfSensor::Reference::metres;
+      out->reference_m = height.number();
+    }
+  }
+  return out;
+}
+
+}  // namespace bpms

@@ -1,0 +1,35 @@
+#include <map>
+
+#include "simulate/sensors/sensor.h"
+
+namespace bpms {
+namespace {
+using Reader = std::unique_ptr<Sensor> (*)(const TomlValue&, const Domain&, const Light&);
+const std::map<std::string, Reader> kinds{
+    {"brf", read_brf_sensor},
+    {"perspective", read_perspective_sensor},
+};
+}  // namespace
+
+std::unique_ptr<Sensor> read_sensor(const TomlValue& table, const Domain& domain, const Light& light) {
+  const TomlValue name = table.require("name");
+  if (name.string().empty()) name.reject("expected a name");
+  std::vector<std::string> known;
+  for (const auto& kind : kinds) known.push_back(kind.first);
+  const TomlValue type = table.require("type");
+  for (const char* later : {"orthographic", "spherical", "albedo", "lidar", "flux"})
+    if (type.is_string() && type.string() == later)
+      type.reject(
+          fmt::format("sensors of type \"{}\" are not built yet: expected brf or perspective", later));
+  auto out = kinds.at(type.one_of(known))(table, domain, light);
+  out->name = name.string();
+  out->type = type.string();
+  return out;
+}
+
+Extent extent_of(const Intersector& intersector) {
+  return {intersector.cell_low_m().cast<double>(), intersector.cell_high_m().cast<double>(),
+          intersector.top_m(), intersector.bottom_m()};
+}
+
+}  // namespace bpms

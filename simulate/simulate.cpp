@@ -1,0 +1,47 @@
+#include "simulate/simulate.h"
+
+#include <numeric>
+
+#include "core/interrupt.h"
+#include "core/parallel.h"
+#include "simulate/transport/schedule.h"
+
+namespace bpms {
+
+Result simulate(const Simulation& simulation, std::uint64_t seed) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const Intersector intersector(simulation.scene);
+  const Stage stage{&intersector, &simulation, make_optics(simulation), extent_of(intersector)};
+  Result out;
+  out.seed = seed;
+  out.threads = threads();
+  Progress progress("paths", 0);
+  bool out_of_time = false, out_of_samples = false;
+  for (std::size_t s = 0; s < simulation.sensors.size(); ++s) {
+    Run run{&stage, seed, static_cast<std::uint32_t>(s), Clock::time_point::max(), false, false, &progress};
+    if (simulation.sampling.max_seconds > 0) {
+      const double share = static_cast<double>(s + 1) / static_cast<double>(simulation.sensors.size());
+      run.deadline = start + std::chrono::duration_cast<Clock::duration>(
+                                 std::chrono::duration<double>(simulation.sampling.max_seconds * share));
+    }
+    out.sensors.push_back(run_sensor(run, *simulation.sensors[s]));
+    const SensorResult& last = out.sensors.back();
+    out.samples += std::accumulate(last.samples.begin(), last.samples.end(), std::uint64_t{0});
+    out.rays += last.rays;
+    out_of_time = out_of_time || run.out_of_time;
+    out_of_samples = out_of_samples || run.out_of_samples;
+    if (interrupted()) break;
+  }
+  out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  out.stopped_by = simulation.sampling.samples > 0 ? "samples" : "target_se";
+  if (out_of_samples) out.stopped_by = "max_samples";
+  if (out_of_time) out.stopped_by = "max_seconds";
+  if (interrupted()) {
+    if (out.samples == 0) throw_if_interrupted();
+    out.stopped_by = "interrupt";
+  }
+  return out;
+}
+
+}  // namespace bpms

@@ -1,0 +1,31 @@
+// From the batches of a view to its parts: value and standard error of every sum that is asked for, each with
+// moments of its own, since parts of one path are correlated.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "simulate/transport/sums.h"
+
+namespace bpms {
+
+inline constexpr std::size_t batches = 32;  // independent scrambles a view
+
+// All parts that a simulation with this light gives, for `orders` orders kept (0: no split by order or
+// component).
+std::vector<Part> parts_of(const Light& light, int orders);
+
+// One part of one batch, per band, into `out`.
+void part_of_batch(const Part& part, const BatchMeans& means, const Light& light, std::span<double> out);
+
+// Smallest over bands of target / standard error of the total, from one BatchMeans a batch; >= 1: reached.
+double reached(const std::vector<BatchMeans>& means, const Light& light, const Sampling& sampling);
+
+// Writes a view's estimates into the result; `means` and `counts` hold one entry a batch.
+void write_estimates(const std::vector<BatchMeans>& means, const std::vector<const ViewCounts*>& counts,
+                     const Light& light, std::size_t view, SensorResult& result);
+
+// What the orders above max_order would add, from the decay of the last two (a geometric series); NaN where
+// unknown.
+void write_truncation(const Sampling& sampling, std::size_t bands, SensorResult& result);
+
+}  // namespace bpms

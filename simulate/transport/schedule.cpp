@@ -1,0 +1,215 @@
+#include "simulate/transport/schedule.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+#include "core/interrupt.h"
+#include "core/parallel.h"
+#include "simulate/transport/estimate.h"
+#include "simulate/transport/interactions.h"
+#include "simulate/transport/lane_tally.h"
+
+namespace bpms {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t first_round = 32;  // paths a batch
+
+// Rounded up to four steps an octave, which keeps Sobol points balanced.
+std::uint64_t round_up(double paths) {
+  auto n = static_cast<std::uint64_t>(std::ceil(paths));
+  const std::uint64_t step = std::max<std::uint64_t>(1, std::bit_floor(n) / 4);
+  return (n + step - 1) / step * step;
+}
+
+template <class Tally>
+class ViewState {
+ public:
+  ViewState(const Stage& stage, int orders, std::size_t index) : stage_(&stage), view(index) {
+    tallies.assign(batches, Tally(stage.optics, orders));
+  }
+
+  void trace(const Run& run, const Sensor& sensor, std::size_t batch) {
+    const ViewKey key{run.seed, run.sensor_index, view};
+    trace_paths(*stage_, sensor, view, PathNumbers(key, static_cast<std::uint32_t>(batch)), done, goal,
+                tallies[batch]);
+  }
+  bool has_all_batches() const {
+    return std::all_of(tallies.begin(), tallies.end(), [](const Tally& t) { return t.counts.paths > 0; });
+  }
+  std::vector<BatchMeans> means() const {
+    std::vector<BatchMeans> out(batches);
+    for (std::size_t b = 0; b < batches; ++b) tallies[b].means(out[b]);
+    return out;
+  }
+  // After a round: sets the next goal, or leaves it where it is when the view is finished.
+  void plan(Run& run, std::atomic<bool>& out_of_time, std::atomic<bool>& out_of_samples) {
+    const Simulation& simulation = *stage_->simulation;
+    done = goal;
+    const double ratio =
+        simulation.sampling.target_se > 0 ? reached(means(), simulation.light, simulation.sampling) : 0;
+    goal = next_size(simulation.sampling, done, ratio);
+    if (goal == done && simulation.sampling.target_se > 0 && ratio < 1) out_of_samples = true;
+    if (goal > done && Clock::now() > run.deadline) {
+      out_of_time = true;
+      goal = done;
+    }
+  }
+  void finish(SensorResult& result) const {
+    std::vector<const ViewCounts*> counts;
+    for (const Tally& tally : tallies) counts.push_back(&tally.counts);
+    write_estimates(means(), counts, stage_->simulation->light, view, result);
+  }
+
+ private:
+  const Stage* stage_;
+
+ public:
+  std::size_t view;
+  std::uint64_t done = 0, goal = 0;  // paths a batch
+  std::vector<Tally> tallies;
+};
+
+template <class Tally>
+void collect(const ViewState<Tally>& state, SensorResult& result, std::atomic<std::uint64_t>& rays,
+             std::atomic<std::uint64_t>& lost) {
+  for (const Tally& tally : state.tallies) {
+    rays += tally.counts.rays;
+    lost += tally.counts.lost;
+  }
+  if (state.has_all_batches()) state.finish(result);
+}
+
+// Directions: all batches of a group of views side by side.
+template <class Tally>
+void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t last, int orders,
+               SensorResult& result) {
+  const Sampling& sampling = run.stage->simulation->sampling;
+  std::vector<ViewState<Tally>> views;
+  for (std::size_t view = first; view < last; ++view) {
+    views.emplace_back(*run.stage, orders, view);
+    views.back().goal = next_size(sampling, 0, 0);
+  }
+  std::atomic<bool> out_of_time{false}, out_of_samples{false};
+  std::atomic<std::uint64_t> rays{0}, lost{0};
+  std::vector<ViewState<Tally>*> active;
+  for (auto& state : views) active.push_back(&state);
+  while (!active.empty() && !interrupted()) {
+    parallel_for(active.size() * batches, [&](std::size_t i) {
+      ViewState<Tally>& state = *active[i / batches];
+      state.trace(run, sensor, i % batches);
+      run.progress->add(state.goal - state.done);
+    });
+    if (interrupted()) break;
+    parallel_for(active.size(), [&](std::size_t i) { active[i]->plan(run, out_of_time, out_of_samples); });
+    std::erase_if(active, [](const ViewState<Tally>* state) { return state->goal == state->done; });
+  }
+  parallel_for(views.size(), [&](std::size_t i) { collect(views[i], result, rays, lost); });
+  result.rays += rays;
+  result.lost += lost;
+  run.out_of_time = run.out_of_time || out_of_time;
+  run.out_of_samples = run.out_of_samples || out_of_samples;
+}
+
+// Images: a pixel at a time, from start to finish.
+template <class Tally>
+void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
+  const Sampling& sampling = run.stage->simulation->sampling;
+  std::atomic<bool> out_of_time{false}, out_of_samples{false};
+  std::atomic<std::uint64_t> rays{0}, lost{0};
+  parallel_for(sensor.views(), [&](std::size_t pixel) {
+    if (interrupted()) return;
+    ViewState<Tally> state(*run.stage, 1, pixel);
+    state.goal = next_size(sampling, 0, 0);
+    while (state.goal > state.done && !interrupted()) {
+      for (std::size_t batch = 0; batch < batches; ++batch) state.trace(run, sensor, batch);
+      run.progress->add((state.goal - state.done) * batches);
+      if (!interrupted()) state.plan(run, out_of_time, out_of_samples);
+    }
+    collect(state, result, rays, lost);
+  });
+  result.rays += rays;
+  result.lost += lost;
+  run.out_of_time = run.out_of_time || out_of_time;
+  run.out_of_samples = run.out_of_samples || out_of_samples;
+}
+
+template <class Tally>
+void run_views(Run& run, const Sensor& sensor, int orders, SensorResult& result) {
+  if (sensor.is_image()) return run_pixels<Tally>(run, sensor, result);
+  // Groups bound the memory of tallies; each gets its share of the time.
+  const bool counting = run.stage->optics.counts_interactions();
+  const std::size_t group =
+      counting ? std::max<std::size_t>(1, static_cast<std::size_t>(threads()) / 8) : 128;
+  const Clock::time_point start = Clock::now(), end = run.deadline;
+  for (std::size_t first = 0; first < sensor.views() && !interrupted(); first += group) {
+    const std::size_t last = std::min(sensor.views(), first + group);
+    if (end != Clock::time_point::max())
+      run.deadline = start + (end - start) / static_cast<long>(sensor.views()) * static_cast<long>(last);
+    run_group<Tally>(run, sensor, first, last, orders, result);
+  }
+  run.deadline = end;
+}
+
+void drop_empty_orders(SensorResult& result) {
+  int highest = 1;
+  for (std::size_t p = 0; p < result.parts.size(); ++p) {
+    const auto& values = result.radiance[p].value;
+    if (std::any_of(values.begin(), values.end(), [](double v) { return v != 0; }))
+      highest = std::max(highest, result.parts[p].order);
+  }
+  for (std::size_t p = result.parts.size(); p-- > 0;) {
+    if (result.parts[p].order <= highest) continue;
+    result.parts.erase(result.parts.begin() + static_cast<std::ptrdiff_t>(p));
+    result.radiance.erase(result.radiance.begin() + static_cast<std::ptrdiff_t>(p));
+  }
+}
+
+}  // namespace
+
+std::uint64_t next_size(const Sampling& sampling, std::uint64_t now, double reached) {
+  if (sampling.samples > 0) {  // the whole at once would leave nothing to keep at an interrupt
+    const std::uint64_t all = std::bit_ceil((sampling.samples + batches - 1) / batches);
+    return std::min(all, now == 0 ? first_round : now * 4);
+  }
+  const std::uint64_t most = std::max<std::uint64_t>(1, sampling.max_samples / batches);
+  if (now == 0) return std::min(most, first_round);
+  if (reached >= 1) return now;
+  constexpr double margin = 1.05;  // the standard error is itself uncertain
+  const double wanted = static_cast<double>(now) * margin / (reached * reached);
+  const double bounded = std::clamp(wanted, 1.25 * static_cast<double>(now), 16.0 * static_cast<double>(now));
+  return std::min(most, round_up(bounded));
+}
+
+SensorResult run_sensor(Run& run, const Sensor& sensor) {
+  const Simulation& simulation = *run.stage->simulation;
+  const bool counting = run.stage->optics.counts_interactions();
+  const std::size_t bands = simulation.bands.count(), views = sensor.views(),
+                    materials = simulation.materials.size();
+  constexpr int many_orders = 64, few_orders = 10;
+  int orders = simulation.sampling.orders > 0 ? simulation.sampling.orders
+               : counting                     ? few_orders
+                                              : many_orders;
+  if (simulation.sampling.max_order > 0) orders = std::min(orders, simulation.sampling.max_order);
+  SensorResult out;
+  out.sensor = &sensor;
+  out.parts = parts_of(simulation.light, sensor.is_image() ? 0 : orders);
+  out.radiance.resize(out.parts.size());
+  for (Estimates& part : out.radiance) part.resize(views * bands);
+  out.gap.resize(views);
+  out.sunlit.resize(views * materials);
+  out.shaded.resize(views * materials);
+  out.samples.assign(views, 0);
+  if (counting)
+    run_views<InteractionTally>(run, sensor, orders, out);
+  else
+    run_views<LaneTally>(run, sensor, orders, out);
+  drop_empty_orders(out);
+  write_truncation(simulation.sampling, bands, out);
+  return out;
+}
+
+}  // namespace bpms

@@ -1,0 +1,2 @@
+export const token: string;
+export function fill(template: string, document: unknown): string;

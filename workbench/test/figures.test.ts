@@ -1,0 +1,106 @@
+import { expect, test } from "vitest";
+import type { Series } from "../src/data";
+import { deWit, perDegree } from "../src/figures/dewit";
+import { bandLine, errorLine } from "../src/figures/errorbars";
+import { histogram } from "../src/figures/histogram";
+import { inPlane } from "../src/figures/organ_functions";
+import { panelGrid } from "../src/figures/panels";
+import { quiver, quiverScale, vectors } from "../src/figures/quiver";
+import { planes, signedZenith } from "../src/figures/view_angles";
+
+test.each(deWit)("the $name distribution integrates to one", ({ density }) => {
+  const n = 2000;
+  const step = Math.PI / 2 / n;
+  let sum = 0;
+  for (let i = 0; i < n; ++i) sum += density((i + 0.5) * step) * step;
+  expect(sum).toBeCloseTo(1, 6); // midpoint rule: error of the order of step² = 6e-7
+});
+
+test("a density per degree integrates to one over ninety degrees", () => {
+  const spherical = deWit.find((d) => d.name === "spherical");
+  let sum = 0;
+  for (let t = 0.5; t < 90; ++t) sum += perDegree(spherical?.density ?? (() => 0), t);
+  expect(sum).toBeCloseTo(1, 4); // steps of one degree
+});
+
+test("planophile leaves lie flat, erectophile ones stand", () => {
+  const at = (name: string, t: number): number => deWit.find((d) => d.name === name)?.density(t) ?? Number.NaN;
+  expect(at("planophile", 0)).toBeGreaterThan(at("planophile", 1.5));
+  expect(at("erectophile", 0)).toBeLessThan(at("erectophile", 1.5));
+});
+
+test("a quiver is scaled to a 1-2-5 number that keeps typical vectors short", () => {
+  const all = Array.from({ length: 100 }, () => ({ u: 0, v: 0, du: 0.15, dv: 0.2 })); // length 0.25 px
+  expect(quiverScale(all, 800)).toBe(100); // 0.04 * 800 / 0.25 = 128
+  expect(quiverScale(all.map((r) => ({ ...r, du: 1.5, dv: 2 })), 800)).toBe(10);
+  expect(quiverScale([], 800)).toBe(1);
+});
+
+test("a vector is drawn from its corner to its scaled end", () => {
+  const [segments] = quiver([{ u: 10, v: 20, du: 0.1, dv: -0.2 }], 100, "#000000", {});
+  expect(segments?.x).toEqual([10, 20, null]);
+  expect(segments?.y).toEqual([20, 0, null]);
+});
+
+test("incomplete residuals are left out", () => {
+  expect(vectors([[1, 2, 3, 4], [1, 2, null, 4], [1, 2], []])).toEqual([{ u: 1, v: 2, du: 3, dv: 4 }]);
+});
+
+test("error bars are 1.96 standard errors, in the order of x", () => {
+  const t = errorLine({ x: [2, 1, null], y: [20, 10, 5], se: [0.2, null, 1] }, "#000000");
+  expect(t.x).toEqual([1, 2]);
+  expect(t.error_y?.array[0]).toBeNull();
+  expect(t.error_y?.array[1]).toBeCloseTo(0.392, 12);
+});
+
+test("a band goes up one side and back down the other", () => {
+  const [band, line] = bandLine({ x: [0, 1], y: [5, 5], se: [1, 1] }, "#000000");
+  expect(band?.x).toEqual([0, 1, 1, 0]);
+  expect(band?.y?.[0]).toBeCloseTo(6.96, 12);
+  expect(band?.y?.[3]).toBeCloseTo(3.04, 12);
+  expect(line?.y).toEqual([5, 5]);
+  expect(bandLine({ x: [0, 1], y: [5, 5] }, "#000000")).toHaveLength(1);
+});
+
+test("a histogram keeps every value, the outermost bins holding what lies beyond", () => {
+  const h = histogram([-1, 0, 0.9, 1, 3.9, 4, 99], 0, 4, 4);
+  expect(h.counts).toEqual([3, 1, 0, 3]);
+  expect(h.centres).toEqual([0.5, 1.5, 2.5, 3.5]);
+});
+
+test("panels fill their chart from the top left without overlap", () => {
+  const grid = panelGrid(["a", "b", "c"], { columns: 2, xTitle: "x", yTitle: "y" });
+  expect(grid.rows).toBe(2);
+  const domain = (key: string): [number, number] => (grid.layout[key] as { domain: [number, number] }).domain;
+  expect(domain("xaxis")[1]).toBeLessThan(domain("xaxis2")[0]);
+  expect(domain("yaxis3")[1]).toBeLessThan(domain("yaxis")[0]);
+  expect(domain("yaxis")[1]).toBe(1);
+});
+
+const series = (extra: Partial<Series>): Series => ({
+  sensor: null, quantity: "brf", band: null, wavelength_nm: null, origin: null, component: null, order: null, material: null,
+  sza_deg: 30, saa_deg: 100, vza_deg: [], vaa_deg: [], value: [], standard_error: [], ...extra,
+}); // prettier-ignore
+
+test("view angles are negative on the sun's side", () => {
+  expect(signedZenith(30, 100, 100)).toBe(-30);
+  expect(signedZenith(30, 280, 100)).toBe(30);
+  expect(signedZenith(30, 190, 100)).toBe(30);
+  expect(signedZenith(30, 10, 100)).toBe(-30);
+  expect(signedZenith(-30, 100, 100)).toBe(-30); // signed by the sensor
+  expect(signedZenith(30, null, 100)).toBe(30);
+});
+
+test("views of two planes make two lines that share nadir", () => {
+  const all = planes(series({ vza_deg: [0, 30, 30, 40, 40], vaa_deg: [0, 100, 280, 190, 10], value: [1, 2, 3, 4, 5] }));
+  expect(all.map((p) => p.name)).toEqual(["principal plane", "cross plane"]);
+  expect(all[0]?.rows.map((r) => [r.vza, r.value])).toEqual([[-30, 2], [0, 1], [30, 3]]);
+  expect(all[1]?.rows.map((r) => r.value)).toEqual([5, 1, 4]);
+});
+
+test("a midrib lies in the plane through its farthest point", () => {
+  const [base, tip] = inPlane([[1, 1, 1], [4, 5, 3]]);
+  expect(base).toEqual({ r: 0, z: 0 });
+  expect(tip?.r).toBeCloseTo(5, 12);
+  expect(tip?.z).toBe(2);
+});
