@@ -6,6 +6,8 @@
 #include "apps/bpms/file_kinds.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
+#include "calibrate/rig.h"
+#include "calibrate/target.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/records.h"
@@ -34,6 +36,16 @@ const std::vector<FileKind>& kinds() {
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
       {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
+      {"rig.toml",
+       [](const std::string&, std::string_view head) {
+         return head.find("[[cameras]]") != std::string_view::npos;
+       },
+       [](const std::string& path) { return fmt::format("{} cameras", read_rig(path).cameras.size()); }},
+      {"board.toml",
+       [](const std::string&, std::string_view head) {
+         return head.find("square_m") != std::string_view::npos;
+       },
+       [](const std::string& path) { return fmt::format("{} corners", read_board(path).size()); }},
   };
   return table;
 }

@@ -106,14 +106,13 @@ Intersector::Impl::Way Intersector::Impl::start(const Ray& ray) const {
 
 // Is this the very element that the ray started on (and not a shifted copy of it)?
 bool Intersector::Impl::is_start(const Way& way, const embree::Found& found) const {
-  const auto [id, shift] = traced.identify(found);
+  const SurfaceId id = traced.id(found);
   if (id.instance != way.from.instance || id.geometry != way.from.geometry ||
       id.primitive != way.from.primitive)
     return false;
-  const TracedScene::Plane plane = traced.plane(id);
-  Eigen::Vector3d from_plane = way.origin - way.before * way.direction - plane.point;
-  from_plane.head<2>() -= shift;
-  return std::abs(from_plane.dot(plane.normal)) <= 4 * way.lift;
+  const TracedScene::Plane plane = traced.plane(found);
+  const Eigen::Vector3d start = way.origin - way.before * way.direction;
+  return std::abs((start - plane.point).dot(plane.normal)) <= 4 * way.lift;
 }
 
 // Is anything met between the way's origin and `length`? For any = true, `found` may stay as it is.
@@ -192,25 +191,22 @@ Escape Intersector::Impl::trace(const Ray& ray, Found& found, double& ground_dis
 
 void Intersector::Impl::describe(const Found& found, Hit& hit) const {
   const auto& [what, way] = found;
-  const auto [id, shift] = traced.identify(what);
-  const Prototype& prototype = traced.prototype_of(id);
+  const SurfaceId id = traced.id(what);
+  const Prototype& prototype = traced.prototype(id.instance);
   hit.id = id;
   hit.distance = static_cast<float>(way.before + what.distance);
   hit.uv = {what.u, what.v};
   hit.ground = false;
-  const Eigen::Vector3d normal = traced.normal(id);
+  const auto [point, normal] = traced.plane(what);
   const double cosine = normal.dot(way.direction);
   hit.front = cosine < 0;
   hit.geometric_normal = normal.cast<float>();
   hit.shading_normal = hit.geometric_normal;
   Eigen::Vector3d position;
   if (id.geometry == TracedScene::discs) {
-    const Disc& disc = prototype.discs[id.primitive];
-    Eigen::Vector3d centre = traced.to_world(id.instance, disc.centre_m);
-    centre.head<2>() += shift;
-    // From the disc's own plane, since origin + t d is off it by t's rounding.
-    const Eigen::Vector3d offset = way.origin - centre + what.distance * way.direction;
-    position = centre + offset - offset.dot(normal) * normal;
+    // In the disc's own plane: origin + t d is off it by t's rounding.
+    const Eigen::Vector3d offset = way.origin - point + static_cast<double>(what.distance) * way.direction;
+    position = point + offset - offset.dot(normal) * normal;
     hit.uv.setZero();
     hit.material = prototype.disc_material;
     hit.organ = 0xffffffffu;
@@ -221,8 +217,7 @@ void Intersector::Impl::describe(const Found& found, Hit& hit) const {
     const auto interpolate = [&](const auto& of) -> std::decay_t<decltype(of[0])> {
       return w * of[a] + what.u * of[b] + what.v * of[c];
     };
-    position = traced.to_world(id.instance, interpolate(mesh.positions_m));
-    position.head<2>() += shift;
+    position = traced.to_world(what, interpolate(mesh.positions_m));
     if (!mesh.uv.empty()) hit.uv = interpolate(mesh.uv);
     hit.organ = mesh.organ_of_triangle.empty() ? 0xffffffffu : mesh.organ_of_triangle[id.primitive];
     hit.material =

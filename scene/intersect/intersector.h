@@ -10,7 +10,9 @@
 
 namespace bpms {
 
-// Names the surface element a ray starts on, so that it is not hit again at once.
+// Names the surface element a ray starts on, so that it is not hit again at once. `instance` is the index
+// into Scene::instances, `geometry` 0 for discs, 1 for the mesh, 2 for the ground; triangles are numbered as
+// in the mesh, discs in the intersector's own order.
 struct SurfaceId {
   std::uint32_t instance = 0xffffffffu;
   std::uint32_t geometry = 0xffffffffu;
@@ -40,9 +42,11 @@ struct Hit {
 enum class Escape { hit, top, bottom, wrap_limit };
 
 struct IntersectorOptions {
-  int max_wraps = 1000;                     // of a ray in a periodic domain
-  std::uint64_t flatten_limit = 4'000'000;  // up to so many discs and triangles, instances are written out
-  double margin_m = -1;                     // of copies kept around a periodic cell; negative: chosen
+  int max_wraps = 1000;  // of a ray in a periodic domain
+  // Prototypes that stand more than once are instanced when all their instances have more primitives than
+  // this.
+  std::uint64_t flatten_below = 100'000;
+  double margin_m = -1;  // of copies kept around a periodic cell; negative: chosen
 };
 
 class Intersector {

@@ -1,52 +1,67 @@
 #include "scene/intersect/traced_scene.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/geometry/morton.h"
 
 namespace bpms {
-
-Box bounds(const Disc& disc) {
-  // A disc of unit normal n reaches r sqrt(1 - n_i^2) along axis i.
-  const Eigen::Vector3d n = disc.normal.cast<double>();
-  const Eigen::Vector3d half = disc.radius_m * (1.0 - n.array().square()).max(0.0).sqrt().matrix();
-  const Eigen::Vector3d c = disc.centre_m.cast<double>();
-  return {c - half, c + half};
-}
-
-Box bounds(const Prototype& prototype) {
-  Box out;
-  for (const Disc& disc : prototype.discs) {
-    const Box b = bounds(disc);
-    out.include(b.low);
-    out.include(b.high);
-  }
-  if (prototype.mesh)
-    for (const Eigen::Vector3f& p : prototype.mesh->positions_m) out.include(p.cast<double>());
-  return out;
-}
-
-Box bounds(const Box& prototype, const Instance& instance) {
-  const double c = std::cos(instance.rotation), s = std::sin(instance.rotation);
-  Box out;
-  for (int corner = 0; corner < 8; ++corner) {
-    const double x = corner & 1 ? prototype.high.x() : prototype.low.x();
-    const double y = corner & 2 ? prototype.high.y() : prototype.low.y();
-    const double z = corner & 4 ? prototype.high.z() : prototype.low.z();
-    out.include(instance.position_m + instance.scale * Eigen::Vector3d(c * x - s * y, s * x + c * y, z));
-  }
-  return out;
-}
 
 TracedScene::TracedScene(const Scene& scene, const IntersectorOptions& options)
     : top_(device_),
       prototypes_(scene.prototypes),
       instances_(scene.instances),
-      periodic_(scene.domain.periodic) {
-  size_ = scene.domain.size_m;
+      periodic_(scene.domain.periodic),
+      size_(scene.domain.size_m) {
   if (periodic_ && !(size_.minCoeff() > 0))
     throw Error(ErrorKind::bad_input, "a periodic domain needs a size (domain.size_m)");
+  sort_discs();
+  make_triangle_normals();
+  std::vector<Box> prototype_bounds, instance_bounds;
+  for (const Prototype& prototype : prototypes_) prototype_bounds.push_back(bounds(prototype));
+  for (const Instance& instance : instances_) {
+    rotations_.push_back({std::cos(instance.rotation), std::sin(instance.rotation)});
+    instance_bounds.push_back(bounds(prototype_bounds[instance.prototype], instance));
+    box_.include(instance_bounds.back());
+  }
+  if (periodic_) {
+    margin_ = options.margin_m >= 0 ? options.margin_m : 0;
+    // A hair more, so that no rounding opens a gap where a ray changes sides.
+    const double slack = 1e-5 * (size_.maxCoeff() + margin_);
+    complete_low_ = (-0.5 * size_).array() - margin_ - slack;
+    complete_high_ = (0.5 * size_).array() + margin_ + slack;
+    box_.low.head<2>() = -0.5 * size_;
+    box_.high.head<2>() = 0.5 * size_;
+  }
+  make_copies(instance_bounds);
+  choose_layout(options);
+  prototype_bvh_.resize(prototypes_.size());
+  for (std::uint32_t k = 0; k < copies_.size(); ++k) {
+    if (copies_[k].flat) {
+      add_flat_discs(k);
+      add_flat_triangles(k);
+    } else {
+      add_instance(k);
+    }
+  }
+  top_.commit();
+}
+
+// Embree keeps points by number only: discs that lie together should be numbered together.
+void TracedScene::sort_discs() {
+  for (Prototype& prototype : prototypes_) {
+    std::vector<Eigen::Vector3f> centres;
+    for (const Disc& disc : prototype.discs) centres.push_back(disc.centre_m);
+    std::vector<Disc> sorted;
+    sorted.reserve(centres.size());
+    for (const std::uint32_t k : morton_order(centres)) sorted.push_back(prototype.discs[k]);
+    prototype.discs = std::move(sorted);
+  }
+}
+
+void TracedScene::make_triangle_normals() {
   for (const Prototype& prototype : prototypes_) {
     std::vector<Eigen::Vector3f>& normals = triangle_normals_.emplace_back();
     if (!prototype.mesh) continue;
@@ -58,197 +73,188 @@ TracedScene::TracedScene(const Scene& scene, const IntersectorOptions& options)
           (mesh.positions_m[b].cast<double>() - p).cross(mesh.positions_m[c].cast<double>() - p);
       // The vertex normals say which side is the upper one; without them the order of the vertices does.
       if (!mesh.normals.empty() &&
-          n.dot((mesh.normals[a] + mesh.normals[b] + mesh.normals[c]).cast<double>()) < 0) {
+          n.dot((mesh.normals[a] + mesh.normals[b] + mesh.normals[c]).cast<double>()) < 0)
         n = -n;
-      }
       normals.push_back(n.normalized().cast<float>());
     }
   }
-  std::vector<Box> prototype_bounds, instance_bounds;
-  for (const Prototype& prototype : prototypes_) prototype_bounds.push_back(bounds(prototype));
-  for (const Instance& instance : instances_) {
-    rotations_.push_back({std::cos(instance.rotation), std::sin(instance.rotation)});
-    const Box& own = prototype_bounds[instance.prototype];
-    instance_bounds.push_back(own.empty() ? Box{} : bounds(own, instance));
-    if (own.empty()) continue;
-    box_.include(instance_bounds.back().low);
-    box_.include(instance_bounds.back().high);
-  }
-  if (periodic_) {
-    margin_ = options.margin_m >= 0 ? options.margin_m : 0;
-    // A hair more, so that no rounding opens a gap where a ray changes sides.
-    const double slack = 1e-5 * (size_.maxCoeff() + margin_);
-    complete_low_ = (-0.5 * size_).array() - margin_ - slack;
-    complete_high_ = (0.5 * size_).array() + margin_ + slack;
-    box_.low.head<2>() = -0.5 * size_;
-    box_.high.head<2>() = 0.5 * size_;
-  }
-
-  const std::vector<Copy> all = copies_over_cell(instance_bounds);
-  std::uint64_t primitives = 0;
-  for (const Copy& copy : all) {
-    const Prototype& prototype = prototypes_[instances_[copy.instance].prototype];
-    primitives += prototype.discs.size() + (prototype.mesh ? prototype.mesh->triangles.size() : 0);
-  }
-  if (primitives <= options.flatten_limit) {
-    add_flat(all);
-  } else {
-    add_instanced(all);
-  }
-  top_.commit();
 }
 
 bool TracedScene::inside(const Box& b, const Eigen::Vector2d& by) const {
-  if (!periodic_) return true;
   return ((b.low.head<2>() + by).array() <= complete_high_.array()).all() &&
          ((b.high.head<2>() + by).array() >= complete_low_.array()).all();
 }
 
-std::vector<TracedScene::Copy> TracedScene::copies_over_cell(const std::vector<Box>& instance_bounds) const {
+void TracedScene::make_copies(const std::vector<Box>& instance_bounds) {
   constexpr double most_cells = 1000;  // across; more is a mistake in the units
-  std::vector<Copy> out;
+  whole_copy_.assign(instances_.size(), embree::none);
   for (std::uint32_t i = 0; i < instances_.size(); ++i) {
     const Box& b = instance_bounds[i];
     if (b.empty()) continue;
-    if (!periodic_) {
-      out.push_back({i, 0, 0});
-      continue;
+    Eigen::Vector2d least = Eigen::Vector2d::Zero(), most = Eigen::Vector2d::Zero(), nearest = least;
+    if (periodic_) {
+      least = ((complete_low_ - b.high.head<2>()).array() / size_.array()).ceil();
+      most = ((complete_high_ - b.low.head<2>()).array() / size_.array()).floor();
+      nearest = (-0.5 * (b.low + b.high).head<2>().array() / size_.array()).round();
+      if (!((most - least).maxCoeff() <= most_cells))
+        fail(ErrorKind::bad_input, {},
+             "prototype {} is more than {:.0f} times as wide as the periodic domain",
+             in_quotes(prototype(i).name), most_cells);
     }
-    const Eigen::Vector2d least = ((complete_low_ - b.high.head<2>()).array() / size_.array()).ceil();
-    const Eigen::Vector2d most = ((complete_high_ - b.low.head<2>()).array() / size_.array()).floor();
-    if ((most - least).maxCoeff() > most_cells || least.cwiseAbs().maxCoeff() > 3e4)
-      fail(ErrorKind::bad_input, {}, "prototype {} is more than {:.0f} times as wide as the periodic domain",
-           in_quotes(prototypes_[instances_[i].prototype].name), most_cells);
-    for (int y = static_cast<int>(least.y()); y <= static_cast<int>(most.y()); ++y)
-      for (int x = static_cast<int>(least.x()); x <= static_cast<int>(most.x()); ++x)
-        out.push_back({i, x, y});
-  }
-  return out;
-}
-
-void TracedScene::add_flat(const std::vector<Copy>& copies) {
-  add_flat_discs(copies);
-  add_flat_triangles(copies);
-}
-
-void TracedScene::add_flat_discs(const std::vector<Copy>& copies) {
-  for (const Copy& copy : copies) {
-    const Instance& instance = instances_[copy.instance];
-    const std::vector<Disc>& own = prototypes_[instance.prototype].discs;
-    for (std::uint32_t k = 0; k < own.size(); ++k) {
-      if (periodic_) {
-        const Disc world{to_world(copy.instance, own[k].centre_m).cast<float>(),
-                         static_cast<float>(own[k].radius_m * instance.scale),
-                         turn(copy.instance, own[k].normal).cast<float>()};
-        if (!inside(bounds(world), shift(copy.shift_x, copy.shift_y))) continue;
+    for (double y = least.y(); y <= most.y(); ++y) {
+      for (double x = least.x(); x <= most.x(); ++x) {
+        Copy& copy = copies_.emplace_back();
+        copy.instance = i;
+        if (periodic_) copy.shift = {x * size_.x(), y * size_.y()};
+        copy.whole = x == nearest.x() && y == nearest.y();
+        if (copy.whole) whole_copy_[i] = static_cast<std::uint32_t>(copies_.size() - 1);
       }
-      flat_discs_.push_back({copy.instance, k, static_cast<std::int16_t>(copy.shift_x),
-                             static_cast<std::int16_t>(copy.shift_y)});
     }
   }
-  if (flat_discs_.empty()) return;
-  top_.add_discs(discs, flat_discs_.size(), [&](const embree::Bvh::Discs& buffers) {
-    for (std::size_t k = 0; k < flat_discs_.size(); ++k) {
-      const Flat& flat = flat_discs_[k];
-      const Instance& instance = instances_[flat.instance];
-      const Disc& disc = prototypes_[instance.prototype].discs[flat.primitive];
-      Eigen::Vector3d c = to_world(flat.instance, disc.centre_m);
-      c.head<2>() += shift(flat.shift_x, flat.shift_y);
-      const Eigen::Vector3f n = turn(flat.instance, disc.normal).cast<float>();
-      buffers.centre_radius[k] = {static_cast<float>(c.x()), static_cast<float>(c.y()),
-                                  static_cast<float>(c.z()),
-                                  static_cast<float>(disc.radius_m * instance.scale)};
-      buffers.normal[k] = {n.x(), n.y(), n.z()};
+}
+
+std::uint64_t TracedScene::primitives(std::uint32_t prototype) const {
+  const Prototype& p = prototypes_[prototype];
+  return p.discs.size() + (p.mesh ? p.mesh->triangles.size() : 0);
+}
+
+// What stands once is written out. What stands many times is instanced unless it is small: its primitives
+// then stay in the processor's caches, which is worth more than the step into an instance costs (HET01: twice
+// the rays a second).
+void TracedScene::choose_layout(const IntersectorOptions& options) {
+  std::vector<std::uint64_t> uses(prototypes_.size(), 0);
+  for (const Instance& instance : instances_) ++uses[instance.prototype];
+  for (Copy& copy : copies_) {
+    const std::uint32_t p = instances_[copy.instance].prototype;
+    copy.flat =
+        options.flatten_below > 0 && (uses[p] == 1 || uses[p] * primitives(p) <= options.flatten_below);
+    copy.whole = copy.whole || !copy.flat;
+    if (!copy.flat) instanced_ = true;
+  }
+}
+
+void TracedScene::add_flat_discs(std::uint32_t number) {
+  Copy& copy = copies_[number];
+  const Instance& instance = instances_[copy.instance];
+  const std::vector<Disc>& own = prototypes_[instance.prototype].discs;
+  const auto world = [&](std::size_t k) {
+    Eigen::Vector3d c = place(copy.instance, own[k].centre_m);
+    c.head<2>() += copy.shift;
+    return Disc{c.cast<float>(), static_cast<float>(own[k].radius_m * instance.scale),
+                turn(copy.instance, own[k].normal).cast<float>()};
+  };
+  if (!copy.whole) {
+    for (std::uint32_t k = 0; k < own.size(); ++k)
+      if (inside(bounds(world(k)), Eigen::Vector2d::Zero())) copy.kept_discs.push_back(k);
+  }
+  const std::size_t count = copy.whole ? own.size() : copy.kept_discs.size();
+  if (count == 0) return;
+  top_.add_discs(2 * number + discs, count, [&](const embree::Bvh::Discs& buffers) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const Disc disc = world(copy.whole ? k : copy.kept_discs[k]);
+      buffers.centre_radius[k] = {disc.centre_m.x(), disc.centre_m.y(), disc.centre_m.z(), disc.radius_m};
+      buffers.normal[k] = {disc.normal.x(), disc.normal.y(), disc.normal.z()};
     }
+    copy.disc_centre = buffers.centre_radius;
+    copy.disc_normal = buffers.normal;
   });
 }
 
-void TracedScene::add_flat_triangles(const std::vector<Copy>& copies) {
+void TracedScene::add_flat_triangles(std::uint32_t number) {
+  Copy& copy = copies_[number];
+  const Mesh* mesh = prototype(copy.instance).mesh.get();
+  if (mesh == nullptr) return;
   std::vector<std::array<float, 3>> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangle_list;
-  for (const Copy& copy : copies) {
-    const Mesh* mesh = prototypes_[instances_[copy.instance].prototype].mesh.get();
-    if (mesh == nullptr) continue;
-    std::vector<std::uint32_t> number(mesh->positions_m.size(), embree::none);
+  for (const Eigen::Vector3f& p : mesh->positions_m) {
+    Eigen::Vector3d w = place(copy.instance, p);
+    w.head<2>() += copy.shift;
+    vertices.push_back({static_cast<float>(w.x()), static_cast<float>(w.y()), static_cast<float>(w.z())});
+  }
+  if (!copy.whole) {
     for (std::uint32_t k = 0; k < mesh->triangles.size(); ++k) {
-      const auto& corners = mesh->triangles[k];
-      if (periodic_) {
-        Box b;
-        for (const std::uint32_t v : corners) b.include(to_world(copy.instance, mesh->positions_m[v]));
-        if (!inside(b, shift(copy.shift_x, copy.shift_y))) continue;
+      Box b;
+      for (const std::uint32_t v : mesh->triangles[k])
+        b.include(Eigen::Vector3d(vertices[v][0], vertices[v][1], vertices[v][2]));
+      if (inside(b, Eigen::Vector2d::Zero())) copy.kept_triangles.push_back(k);
+    }
+  }
+  const std::size_t count = copy.whole ? mesh->triangles.size() : copy.kept_triangles.size();
+  if (count == 0) return;
+  // Only the vertices that the triangles use.
+  std::vector<std::uint32_t> renumbered(vertices.size(), embree::none);
+  std::vector<std::array<float, 3>> used;
+  std::vector<std::array<std::uint32_t, 3>> corners(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& own = mesh->triangles[copy.whole ? k : copy.kept_triangles[k]];
+    for (std::size_t v = 0; v < 3; ++v) {
+      std::uint32_t& at = renumbered[own[v]];
+      if (at == embree::none) {
+        at = static_cast<std::uint32_t>(used.size());
+        used.push_back(vertices[own[v]]);
       }
-      std::array<std::uint32_t, 3>& flat = triangle_list.emplace_back();
-      for (std::size_t v = 0; v < 3; ++v) {
-        std::uint32_t& at = number[corners[v]];
-        if (at == embree::none) {
-          at = static_cast<std::uint32_t>(vertices.size());
-          Eigen::Vector3d p = to_world(copy.instance, mesh->positions_m[corners[v]]);
-          p.head<2>() += shift(copy.shift_x, copy.shift_y);
-          vertices.push_back(
-              {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
-        }
-        flat[v] = at;
+      corners[k][v] = at;
+    }
+  }
+  top_.add_triangles(2 * number + triangles, used.size(), count, [&](const embree::Bvh::Triangles& buffers) {
+    std::copy(used.begin(), used.end(), buffers.vertex.begin());
+    std::copy(corners.begin(), corners.end(), buffers.index.begin());
+  });
+}
+
+std::unique_ptr<embree::Bvh> TracedScene::prototype_bvh(const Prototype& prototype) const {
+  auto bvh = std::make_unique<embree::Bvh>(device_);
+  if (!prototype.discs.empty()) {
+    bvh->add_discs(discs, prototype.discs.size(), [&](const embree::Bvh::Discs& buffers) {
+      for (std::size_t k = 0; k < prototype.discs.size(); ++k) {
+        const Disc& d = prototype.discs[k];
+        buffers.centre_radius[k] = {d.centre_m.x(), d.centre_m.y(), d.centre_m.z(), d.radius_m};
+        buffers.normal[k] = {d.normal.x(), d.normal.y(), d.normal.z()};
       }
-      flat_triangles_.push_back({copy.instance, k, static_cast<std::int16_t>(copy.shift_x),
-                                 static_cast<std::int16_t>(copy.shift_y)});
-    }
+    });
   }
-  if (triangle_list.empty()) return;
-  top_.add_triangles(triangles, vertices.size(), triangle_list.size(),
-                     [&](const embree::Bvh::Triangles& buffers) {
-                       std::copy(vertices.begin(), vertices.end(), buffers.vertex.begin());
-                       std::copy(triangle_list.begin(), triangle_list.end(), buffers.index.begin());
-                     });
+  if (prototype.mesh && !prototype.mesh->triangles.empty()) {
+    const Mesh& mesh = *prototype.mesh;
+    const auto fill = [&](const embree::Bvh::Triangles& buffers) {
+      for (std::size_t k = 0; k < mesh.positions_m.size(); ++k) {
+        const Eigen::Vector3f& p = mesh.positions_m[k];
+        buffers.vertex[k] = {p.x(), p.y(), p.z()};
+      }
+      std::copy(mesh.triangles.begin(), mesh.triangles.end(), buffers.index.begin());
+    };
+    bvh->add_triangles(triangles, mesh.positions_m.size(), mesh.triangles.size(), fill);
+  }
+  bvh->commit();
+  return bvh;
 }
 
-void TracedScene::add_instanced(const std::vector<Copy>& copies) {
-  for (const Prototype& prototype : prototypes_) {
-    auto& bvh = *prototype_bvh_.emplace_back(std::make_unique<embree::Bvh>(device_));
-    if (!prototype.discs.empty()) {
-      bvh.add_discs(discs, prototype.discs.size(), [&](const embree::Bvh::Discs& buffers) {
-        for (std::size_t k = 0; k < prototype.discs.size(); ++k) {
-          const Disc& d = prototype.discs[k];
-          buffers.centre_radius[k] = {d.centre_m.x(), d.centre_m.y(), d.centre_m.z(), d.radius_m};
-          buffers.normal[k] = {d.normal.x(), d.normal.y(), d.normal.z()};
-        }
-      });
-    }
-    if (prototype.mesh && !prototype.mesh->triangles.empty()) {
-      const Mesh& mesh = *prototype.mesh;
-      bvh.add_triangles(
-          triangles, mesh.positions_m.size(), mesh.triangles.size(),
-          [&](const embree::Bvh::Triangles& buffers) {
-            for (std::size_t k = 0; k < mesh.positions_m.size(); ++k)
-              buffers.vertex[k] = {mesh.positions_m[k].x(), mesh.positions_m[k].y(), mesh.positions_m[k].z()};
-            std::copy(mesh.triangles.begin(), mesh.triangles.end(), buffers.index.begin());
-          });
-    }
-    bvh.commit();
-  }
-  copies_ = copies;
-  for (std::uint32_t k = 0; k < copies_.size(); ++k) {
-    const Copy& copy = copies_[k];
-    const Instance& instance = instances_[copy.instance];
-    const Rotation& r = rotations_[copy.instance];
-    embree::Placement placement{instance.position_m, instance.scale * r.cosine, instance.scale * r.sine,
-                                instance.scale};
-    placement.origin.head<2>() += shift(copy.shift_x, copy.shift_y);
-    top_.add_instance(first_instance + k, *prototype_bvh_[instance.prototype], placement);
-  }
+void TracedScene::add_instance(std::uint32_t number) {
+  const Copy& copy = copies_[number];
+  const Instance& instance = instances_[copy.instance];
+  auto& bvh = prototype_bvh_[instance.prototype];
+  if (!bvh) bvh = prototype_bvh(prototypes_[instance.prototype]);
+  const Rotation& r = rotations_[copy.instance];
+  embree::Placement placement{instance.position_m, instance.scale * r.cosine, instance.scale * r.sine,
+                              instance.scale};
+  placement.origin.head<2>() += copy.shift;
+  top_.add_instance(2 * number, *bvh, placement);
 }
 
-TracedScene::Element TracedScene::identify(const embree::Found& found) const {
-  if (found.instance != embree::none) {
-    const Copy& copy = copies_[found.instance - first_instance];
-    return {{copy.instance, found.geometry, found.primitive}, shift(copy.shift_x, copy.shift_y)};
-  }
-  const Flat& flat = (found.geometry == discs ? flat_discs_ : flat_triangles_)[found.primitive];
-  return {{flat.instance, found.geometry, flat.primitive}, shift(flat.shift_x, flat.shift_y)};
+SurfaceId TracedScene::id(const embree::Found& found) const {
+  const Copy& copy = copy_of(found);
+  const std::uint32_t kind = kind_of(found);
+  const std::vector<std::uint32_t>& kept = kind == discs ? copy.kept_discs : copy.kept_triangles;
+  return {copy.instance, kind, copy.whole ? found.primitive : kept[found.primitive]};
 }
 
-Eigen::Vector3d TracedScene::to_world(std::uint32_t i, const Eigen::Vector3f& point) const {
-  const Instance& instance = instances_[i];
-  return instance.position_m + instance.scale * turn(i, point);
+Eigen::Vector3d TracedScene::to_world(const embree::Found& found, const Eigen::Vector3f& point) const {
+  const Copy& copy = copy_of(found);
+  Eigen::Vector3d out = place(copy.instance, point);
+  out.head<2>() += copy.shift;
+  return out;
+}
+
+Eigen::Vector3d TracedScene::place(std::uint32_t i, const Eigen::Vector3f& point) const {
+  return instances_[i].position_m + instances_[i].scale * turn(i, point);
 }
 
 Eigen::Vector3d TracedScene::turn(std::uint32_t i, const Eigen::Vector3f& v) const {
@@ -258,16 +264,27 @@ Eigen::Vector3d TracedScene::turn(std::uint32_t i, const Eigen::Vector3f& v) con
 
 Eigen::Vector3d TracedScene::normal(const SurfaceId& id) const {
   if (id.geometry == ground) return Eigen::Vector3d::UnitZ();
-  if (id.geometry == discs) return turn(id.instance, prototype_of(id).discs[id.primitive].normal);
-  return turn(id.instance, triangle_normals_[instances_[id.instance].prototype][id.primitive]);
+  if (id.geometry == triangles)
+    return turn(id.instance, triangle_normals_[instances_[id.instance].prototype][id.primitive]);
+  const Copy& copy = copies_[whole_copy_[id.instance]];
+  if (!copy.flat) return turn(id.instance, prototype(id.instance).discs[id.primitive].normal);
+  const std::array<float, 3>& n = copy.disc_normal[id.primitive];
+  return {n[0], n[1], n[2]};
 }
 
-TracedScene::Plane TracedScene::plane(const SurfaceId& id) const {
-  const Prototype& prototype = prototype_of(id);
-  const Eigen::Vector3f& point =
-      id.geometry == discs ? prototype.discs[id.primitive].centre_m
-                           : prototype.mesh->positions_m[prototype.mesh->triangles[id.primitive][0]];
-  return {to_world(id.instance, point), normal(id)};
+TracedScene::Plane TracedScene::plane(const embree::Found& found) const {
+  const Copy& copy = copy_of(found);
+  if (kind_of(found) == discs && copy.flat) {
+    const auto& c = copy.disc_centre[found.primitive];
+    const auto& n = copy.disc_normal[found.primitive];
+    return {{c[0], c[1], c[2]}, {n[0], n[1], n[2]}};
+  }
+  const SurfaceId which = id(found);
+  const Prototype& own = prototype(which.instance);
+  const Eigen::Vector3f& point = which.geometry == discs
+                                     ? own.discs[which.primitive].centre_m
+                                     : own.mesh->positions_m[own.mesh->triangles[which.primitive][0]];
+  return {to_world(found, point), normal(which)};
 }
 
 }  // namespace bpms

@@ -1,30 +1,22 @@
 // The scene as the intersector traces it: prototypes with their normals, copies of instances over a periodic
-// cell, and the hierarchy (BVH) over them, flat where memory allows and instanced where it does not.
+// cell, and the hierarchy (BVH) over them.
 //
 // A periodic cell is completed with the copies, shifted by whole cells, of everything that crosses its border
-// or lies within `margin` outside it: in the box [low - margin, high + margin] x-y the infinite scene is all
-// there.
+// or lies within `margin` outside it: in the box [low - margin, high + margin] of x and y the infinite scene
+// is all there.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
+#include "scene/intersect/box.h"
 #include "scene/intersect/embree.h"
 #include "scene/intersect/intersector.h"
 #include "scene/scene.h"
 
 namespace bpms {
-
-struct Box {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
-  Eigen::Vector3d high = Eigen::Vector3d::Constant(-1e300);
-  bool empty() const { return low.x() > high.x(); }
-  void include(const Eigen::Vector3d& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
-};
-Box bounds(const Disc& disc);
-Box bounds(const Prototype& prototype);
-// Encloses the instance: exact in z, and in x and y when it is not turned.
-Box bounds(const Box& prototype, const Instance& instance);
 
 class TracedScene {
  public:
@@ -32,67 +24,75 @@ class TracedScene {
 
   static constexpr std::uint32_t discs = 0, triangles = 1, ground = 2;  // SurfaceId::geometry
 
-  // What Embree found, named as the scene names it; `shift` places the copy it belongs to.
-  struct Element {
-    SurfaceId id;
-    Eigen::Vector2d shift;
-  };
-  Element identify(const embree::Found& found) const;
-
-  // A point of the element's plane (not shifted) and its unit normal, which looks to the upper side.
+  // A point of a primitive's plane (of a disc, its centre) and its unit normal, which looks to the upper
+  // side.
   struct Plane {
     Eigen::Vector3d point;
     Eigen::Vector3d normal;
   };
-  Plane plane(const SurfaceId& id) const;
-  Eigen::Vector3d normal(const SurfaceId& id) const;
-  const Prototype& prototype_of(const SurfaceId& id) const {
-    return prototypes_[instances_[id.instance].prototype];
-  }
-  Eigen::Vector3d to_world(std::uint32_t instance, const Eigen::Vector3f& point) const;
+  SurfaceId id(const embree::Found& found) const;
+  Plane plane(const embree::Found& found) const;      // where it was met, in whichever copy
+  Eigen::Vector3d normal(const SurfaceId& id) const;  // the same for all copies
+  // A point and a direction of the found copy's prototype, in the world.
+  Eigen::Vector3d to_world(const embree::Found& found, const Eigen::Vector3f& point) const;
   Eigen::Vector3d turn(std::uint32_t instance, const Eigen::Vector3f& direction) const;
+  const Prototype& prototype(std::uint32_t instance) const {
+    return prototypes_[instances_[instance].prototype];
+  }
 
   const embree::Bvh& bvh() const { return top_; }
-  const Box& box() const { return box_; }  // of all geometry; x-y of the cell when periodic
+  const Box& box() const { return box_; }  // of all geometry; x and y of the cell when periodic
   double margin_m() const { return margin_; }
-  bool instanced() const { return !copies_.empty(); }
+  bool instanced() const { return instanced_; }
   std::uint64_t memory_bytes() const { return device_.memory_bytes(); }
 
  private:
+  // An instance shifted by whole cells: an Embree instance, or its primitives written out (flat). Its numbers
+  // in the top scene are 2 copy + discs or triangles. One copy of each instance has all primitives, numbered
+  // as the prototype numbers them; the other flat ones keep only what reaches into the box.
   struct Copy {
-    std::uint32_t instance;
-    std::int32_t shift_x, shift_y;
-  };
-  struct Flat {
-    std::uint32_t instance;
-    std::uint32_t primitive;
-    std::int16_t shift_x, shift_y;
+    std::uint32_t instance = 0;
+    Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+    bool flat = false;
+    bool whole = true;
+    std::vector<std::uint32_t> kept_discs, kept_triangles;  // when not whole
+    // Embree's own arrays when flat: warm in the caches where a ray has just met something.
+    std::span<const std::array<float, 4>> disc_centre;
+    std::span<const std::array<float, 3>> disc_normal;
   };
   struct Rotation {
     double cosine, sine;
   };
-  void add_flat(const std::vector<Copy>& copies);
-  void add_flat_discs(const std::vector<Copy>& copies);
-  void add_flat_triangles(const std::vector<Copy>& copies);
-  void add_instanced(const std::vector<Copy>& copies);
-  std::vector<Copy> copies_over_cell(const std::vector<Box>& instance_bounds) const;
+  const Copy& copy_of(const embree::Found& found) const {
+    return copies_[(found.instance != embree::none ? found.instance : found.geometry) / 2];
+  }
+  static std::uint32_t kind_of(const embree::Found& found) { return found.geometry & 1u; }
+  std::uint64_t primitives(std::uint32_t prototype) const;
+  Eigen::Vector3d place(std::uint32_t instance, const Eigen::Vector3f& point) const;
   bool inside(const Box& b, const Eigen::Vector2d& shift) const;
-  Eigen::Vector2d shift(std::int32_t x, std::int32_t y) const { return {x * size_.x(), y * size_.y()}; }
+  void sort_discs();
+  void make_triangle_normals();
+  void make_copies(const std::vector<Box>& instance_bounds);
+  void choose_layout(const IntersectorOptions& options);
+  void add_flat_discs(std::uint32_t number);
+  void add_flat_triangles(std::uint32_t number);
+  void add_instance(std::uint32_t number);
+  std::unique_ptr<embree::Bvh> prototype_bvh(const Prototype& prototype) const;
 
   embree::Device device_;
-  std::vector<std::unique_ptr<embree::Bvh>> prototype_bvh_;
+  std::vector<std::unique_ptr<embree::Bvh>> prototype_bvh_;  // null where all instances are flat
   embree::Bvh top_;
   std::vector<Prototype> prototypes_;
   std::vector<std::vector<Eigen::Vector3f>> triangle_normals_;  // of each prototype's mesh, upper side
   std::vector<Instance> instances_;
   std::vector<Rotation> rotations_;
-  std::vector<Flat> flat_discs_, flat_triangles_;
-  std::vector<Copy> copies_;  // instanced ones; geometry number in the top scene = index + first_instance
-  static constexpr std::uint32_t first_instance = 2;
+  std::vector<Copy> copies_;
+  std::vector<std::uint32_t> whole_copy_;  // of each instance
   bool periodic_ = false;
+  bool instanced_ = false;
   Eigen::Vector2d size_ = Eigen::Vector2d::Zero();
   double margin_ = 0;
-  Eigen::Vector2d complete_low_, complete_high_;
+  Eigen::Vector2d complete_low_ = Eigen::Vector2d::Zero(), complete_high_ = Eigen::Vector2d::Zero();
   Box box_;
 };
 

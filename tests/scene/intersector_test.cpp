@@ -41,7 +41,7 @@ TEST(Intersector, SeesAStraddlingDiscOnBothSidesOfTheCell) {
   const Scene scene = one_disc(true);
   for (const std::uint64_t limit : {0ull, 1000ull}) {
     IntersectorOptions options;
-    options.flatten_limit = limit;
+    options.flatten_below = limit;
     const Intersector intersector(scene, options);
     for (const float x : {1.5f, 1.99f, -1.99f, -1.65f}) {
       Hit hit;

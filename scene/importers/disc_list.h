@@ -1,0 +1,13 @@
+// Lists of discs as RAMI gives them: rows `radius x y z nx ny nz` in metres, '#' comments, optionally
+// gzipped.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace bpms {
+// A radius that is not positive, a normal of length zero, a row of another width: bad_input with its line and
+// column.
+std::vector<Disc> read_disc_list(const std::string& path);
+}  // namespace bpms
