@@ -1,5 +1,6 @@
 #include "fit/report.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +36,7 @@ Json function(const FittedFunction& f, bool angle) {
   }
   return {{"kind", std::string(1, f.choice.code)},
           {"order", f.choice.order},
-          {"unit", angle ? "degree" : "m"},
+          {"unit", angle ? "deg" : "m"},
           {"coefficients", coefficients},
           {"sigma", sigma},
           {"aicc", number(f.aicc)},
@@ -43,14 +44,40 @@ Json function(const FittedFunction& f, bool angle) {
 }
 
 Json aicc_table(const OrganFit& fit) {
-  Json out = Json::object();
+  Json out = Json::array();
   for (const auto& [name, rows] : fit.aicc_table) {
-    Json table = Json::array();
     for (const auto& [choice, aicc] : rows)
-      table.push_back(
-          {{"kind", std::string(1, choice.code)}, {"order", choice.order}, {"aicc", number(aicc)}});
-    if (!table.empty()) out[name] = table;
+      out.push_back({{"function", name},
+                     {"kind", std::string(1, choice.code)},
+                     {"order", choice.order},
+                     {"aicc", number(aicc)}});
   }
+  return out;
+}
+
+// Angles of the polyline's pieces in the leaf's frame: what the integrated functions stand beside, not what
+// was fitted.
+Json measured(const OrganFit& fit) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(fit.direction, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  double length = 0;
+  for (std::size_t k = 1; k < fit.points_m.size(); ++k)
+    length += (fit.points_m[k] - fit.points_m[k - 1]).norm();
+  Json l = Json::array(), inclination = Json::array(), azimuth = Json::array();
+  double arc = 0, before = 0;
+  for (std::size_t k = 1; k < fit.points_m.size(); ++k) {
+    const Eigen::Vector3d step = turn.transpose() * (fit.points_m[k] - fit.points_m[k - 1]);
+    const double piece = step.norm();
+    if (piece <= 0) continue;
+    double angle = std::atan2(step.x(), step.z());
+    angle -= 2 * pi * std::round((angle - before) / (2 * pi));
+    before = angle;
+    l.push_back((arc + piece / 2) / length);
+    inclination.push_back(degrees(angle));
+    azimuth.push_back(degrees(std::asin(std::clamp(-step.y() / piece, -1.0, 1.0))));
+    arc += piece;
+  }
+  Json out{{"l", l}, {"inclination", inclination}};
+  if (fit.functions.contains("azimuth")) out["azimuth"] = azimuth;
   return out;
 }
 
@@ -101,6 +128,7 @@ Json organ(const OrganFit& fit) {
   for (const auto& [name, f] : fit.functions) functions[name] = function(f, name != "width");
   out["functions"] = functions;
   out["aicc_table"] = aicc_table(fit);
+  out["measured"] = measured(fit);
   out["points_m"] = points(fit.points_m);
   out["fitted_m"] = points(fit.fitted_m);
   return out;
