@@ -27,6 +27,7 @@ std::vector<MeasuredOrgan> group_organs(const std::vector<VectorPoint>& points,
   std::map<std::string, int> ignored;
   for (const VectorPoint& point : points) {
     const OrganLabel& label = point.label;
+    if (label.organ == "bud") continue;  // a place, see bud_of_plant
     if (!fitted_organ(label.organ)) {
       ++ignored["organ '" + label.organ + "'"];
       continue;
@@ -56,6 +57,16 @@ std::vector<MeasuredOrgan> group_organs(const std::vector<VectorPoint>& points,
   }
   for (const auto& [what, count] : ignored)
     notes.push_back(fmt::format("{}: {} points left out: no function is fitted to them", what, count));
+  return out;
+}
+
+std::optional<Eigen::Vector3d> bud_of_plant(const std::vector<VectorPoint>& points,
+                                            const std::string& plant) {
+  std::optional<Eigen::Vector3d> out;
+  for (const VectorPoint& point : points) {
+    if (point.label.plant == plant && point.label.organ == "bud" && (!out || point.x_m.z() < out->z()))
+      out = point.x_m;
+  }
   return out;
 }
 

@@ -1,5 +1,6 @@
 // Measured points sorted by the organ they belong to.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,8 @@ struct MeasuredOrgan {
 // is fitted to (a pot, an outline) are left out, each kind named once in `notes`.
 std::vector<MeasuredOrgan> group_organs(const std::vector<VectorPoint>& points,
                                         std::vector<std::string>& notes);
+
+// The lowest point digitised on the plant's buds: where its leaves spring from. Absent when there is none.
+std::optional<Eigen::Vector3d> bud_of_plant(const std::vector<VectorPoint>& points, const std::string& plant);
 
 }  // namespace bpms

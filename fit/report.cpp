@@ -153,10 +153,10 @@ Json fit_report(const std::vector<OrganFit>& fits, const std::vector<FittedPlant
     plant_list.push_back({{"name", plant.plant.name},
                           {"organs", plant.organs.size()},
                           {"origin_m", {plant.origin_m.x(), plant.origin_m.y(), plant.origin_m.z()}}});
-    for (std::size_t id = 0; id < plant.organs.size(); ++id) {
-      Json& entry = organs[plant.organs[id]];
-      entry["id"] = id;
-      const Eigen::Vector3d offset = fits[plant.organs[id]].base_m - plant.origin_m;
+    for (std::size_t k = 0; k < plant.organs.size(); ++k) {
+      Json& entry = organs[plant.organs[k]];
+      entry["id"] = plant.ids[k];
+      const Eigen::Vector3d offset = fits[plant.organs[k]].base_m - plant.origin_m;
       entry["base_offset_m"] = {offset.x(), offset.y(), offset.z()};
     }
   }

@@ -19,25 +19,35 @@ namespace bpms {
 namespace {
 
 struct Arguments {
-  std::string input, function = "auto", columns, unit, dialect, width;
+  std::string input, function = "auto", columns, unit, dialect, width, bases = "common";
   bool anchor_base = false;
 };
 
-std::vector<MeasuredOrgan> read_organs(const Arguments& arguments) {
+struct Measured {
+  std::vector<MeasuredOrgan> organs;
+  std::map<std::string, Eigen::Vector3d> buds;  // of the plants that have one
+};
+
+Measured read_organs(const Arguments& arguments) {
   if (!arguments.columns.empty()) {
     const PolylineColumns columns = parse_polyline_columns(arguments.columns);
     if (arguments.unit.empty())
       bad_input({}, "--columns needs --unit: the unit of the coordinates (m, cm, mm, ...)");
-    return read_polylines(arguments.input, columns, metres_per_unit(arguments.unit, {}),
-                          csv_dialect(arguments.dialect.empty() ? "en" : arguments.dialect));
+    return {read_polylines(arguments.input, columns, metres_per_unit(arguments.unit, {}),
+                           csv_dialect(arguments.dialect.empty() ? "en" : arguments.dialect)),
+            {}};
   }
   if (!arguments.unit.empty()) bad_input({}, "--unit goes with --columns; vectors.csv is in metres");
   if (!arguments.dialect.empty())
     bad_input({}, "--dialect goes with --columns; vectors.csv has commas and points");
+  const std::vector<VectorPoint> points = read_vectors(arguments.input);
   std::vector<std::string> notes;
-  std::vector<MeasuredOrgan> out = group_organs(read_vectors(arguments.input), notes);
+  Measured out{group_organs(points, notes), {}};
   for (const std::string& line : notes) note(line);
-  if (out.empty()) bad_input({arguments.input}, "no leaf, stem or head among the vectors");
+  if (out.organs.empty()) bad_input({arguments.input}, "no leaf, stem or head among the vectors");
+  for (const MeasuredOrgan& organ : out.organs) {
+    if (const auto bud = bud_of_plant(points, organ.plant)) out.buds[organ.plant] = *bud;
+  }
   return out;
 }
 
@@ -52,8 +62,9 @@ std::string file_stem(const std::string& name) {
   return out.empty() ? "plant" : out;
 }
 
-void write_plants(const std::string& output, bool overwrite, const std::vector<FittedPlant>& plants) {
-  if (plants.size() == 1) {
+void write_plants(const std::string& output, bool overwrite, bool to_folder,
+                  const std::vector<FittedPlant>& plants) {
+  if (!to_folder) {
     write_file(output, plant_text(plants[0].plant), overwrite);
     return;
   }
@@ -77,8 +88,12 @@ void run(const Cli& cli, const Arguments& arguments) {
   options.functions = parse_function_request(arguments.function);
   options.anchor_base = arguments.anchor_base;
   AssemblyOptions assembly;
+  if (arguments.bases != "common" && arguments.bases != "measured")
+    bad_input({}, "found --bases {}, expected common or measured", in_quotes(arguments.bases));
+  assembly.measured_bases = arguments.bases == "measured";
   if (!arguments.width.empty()) assembly.width_m = parse_length(arguments.width, {});
-  const std::vector<MeasuredOrgan> organs = read_organs(arguments);
+  const Measured measured = read_organs(arguments);
+  const std::vector<MeasuredOrgan>& organs = measured.organs;
 
   std::vector<std::string> names;  // plants in order of appearance
   std::map<std::string, std::vector<std::size_t>> members;
@@ -96,13 +111,15 @@ void run(const Cli& cli, const Arguments& arguments) {
   }
   std::vector<FittedPlant> plants;
   for (const std::string& name : names) {
+    const auto bud = measured.buds.find(name);
+    assembly.bud_m = bud == measured.buds.end() ? std::nullopt : std::optional(bud->second);
     FittedPlant plant = assemble_plant(name, fits, members[name], assembly);
     if (!plant.organs.empty()) plants.push_back(std::move(plant));
   }
   if (plants.empty())
     bad_input({arguments.input}, "none of the {} organs could be fitted; the first, {}: {}", fits.size(),
               fits[0].measured.str(), fits[0].failure);
-  write_plants(output, cli.common.overwrite, plants);
+  write_plants(output, cli.common.overwrite, names.size() > 1, plants);
   if (cli.common.json || !cli.common.report.empty()) {
     Json report = fit_report(fits, plants);
     report["input"] = arguments.input;
@@ -139,6 +156,9 @@ void add_fit(Cli& cli) {
                    "with --columns: en (comma, point) or fr (semicolon, decimal comma)");
   verb->add_option("--width", arguments->width,
                    "full width of leaves whose edges were not measured, as 1.2cm");
+  verb->add_option("--bases", arguments->bases,
+                   "common: all organs start at one point (default); measured: where they were measured, "
+                   "behind stems without surface");
   verb->add_flag("--anchor-base", arguments->anchor_base, "midribs start exactly at their first point");
 }
 

@@ -147,6 +147,31 @@ TEST(Plant, WhatIsWrittenRebuildsTheFittedMidribs) {
   EXPECT_NEAR(report["organs"][2]["base_offset_m"][0].get<double>(), 0.001, 0.005);
 }
 
+TEST(Plant, MeasuredBasesAreKept) {
+  std::vector<MeasuredOrgan> organs;
+  for (int k = 0; k < 3; ++k) {
+    SyntheticLeaf leaf = arching_leaf();
+    leaf.direction = radians(100 * k);
+    leaf.base_m = {0.01 * k, 0.02, 0.03 * k - 0.02};
+    Philox random(15, static_cast<std::uint64_t>(k));
+    organs.push_back(measure(leaf, {}, random));
+  }
+  const std::vector<OrganFit> fits = fit_organs(organs, exactly("inclination=p:2,azimuth=p:1"));
+  AssemblyOptions options;
+  options.bud_m = Eigen::Vector3d(0, 0.01, 0.005);
+  options.measured_bases = true;
+  const FittedPlant fitted = assemble_plant("1", fits, {0, 1, 2}, options);
+  EXPECT_EQ(fitted.origin_m, *options.bud_m);
+  const Plant read = parse_plant("written.bpms", plant_text(fitted.plant));
+  const std::vector<PlacedOrgan> placed = place_organs(read);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const PlacedOrgan& organ = placed[static_cast<std::size_t>(fitted.ids[k])];
+    EXPECT_EQ(organ.kind, OrganKind::leaf);
+    const Eigen::Vector3d tip = organ.plant_from_organ * midrib(*organ.attributes, {1.0})[0].x_m;
+    EXPECT_LT((fitted.origin_m + tip - fits[k].fitted_m.back()).norm(), 1e-9);
+  }
+}
+
 TEST(Fit, WhatCannotBeFittedSaysWhy) {
   Philox random(9);
   SyntheticLeaf leaf = arching_leaf();
