@@ -17,6 +17,7 @@ using bpms::Cli;
 constexpr void (*verbs[])(Cli&) = {
     bpms::add_check,
     bpms::add_build,
+    bpms::add_describe,
     bpms::add_reconstruct,
     bpms::add_fit,
     bpms::add_simulate,
