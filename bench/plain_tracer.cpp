@@ -4,8 +4,8 @@
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <random>
 
 #include "core/units.h"
@@ -121,7 +121,7 @@ PlainResult trace_plainly(const Simulation& simulation, double vza_deg, std::uin
   std::mt19937 generator(static_cast<std::uint32_t>(seed));
   std::uniform_real_distribution<float> uniform(0, 1);
   double sum[2] = {0, 0}, squares[2] = {0, 0};
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   for (std::uint64_t path = 0; path < paths; ++path) {
     Vector3f origin((2 * uniform(generator) - 1) * scene.half(), (2 * uniform(generator) - 1) * scene.half(),
                     scene.top());
@@ -165,7 +165,7 @@ PlainResult trace_plainly(const Simulation& simulation, double vza_deg, std::uin
     for (std::size_t b = 0; b < 2; ++b) sum[b] += value[b], squares[b] += value[b] * value[b];
   }
   PlainResult out{};
-  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const auto n = static_cast<double>(paths);
   for (std::size_t b = 0; b < 2; ++b) {
     out.mean[b] = sum[b] / n;

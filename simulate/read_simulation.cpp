@@ -82,27 +82,4 @@ Simulation read_simulation(const std::string& path) {
   return out;
 }
 
-const char* name_of(Origin origin) {
-  return origin == Origin::total ? "total" : origin == Origin::direct ? "direct" : "diffuse";
-}
-
-const char* name_of(Component component) {
-  switch (component) {
-    case Component::all:
-      return "all";
-    case Component::uc_sgl:
-      return "uc_sgl";
-    case Component::co_sgl:
-      return "co_sgl";
-    case Component::mlt:
-      return "mlt";
-  }
-  return "";
-}
-
-void Estimates::resize(std::size_t size) {
-  value.assign(size, 0.0);
-  standard_error.assign(size, 0.0);
-}
-
 }  // namespace bpms

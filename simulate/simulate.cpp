@@ -9,9 +9,16 @@
 namespace bpms {
 
 Result simulate(const Simulation& simulation, std::uint64_t seed) {
+  const auto start = std::chrono::steady_clock::now();
+  const Intersector intersector(simulation.scene);
+  Result out = simulate(simulation, intersector, seed);
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return out;
+}
+
+Result simulate(const Simulation& simulation, const Intersector& intersector, std::uint64_t seed) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  const Intersector intersector(simulation.scene);
   const Stage stage{&intersector, &simulation, make_optics(simulation), extent_of(intersector)};
   Result out;
   out.seed = seed;
@@ -42,6 +49,29 @@ Result simulate(const Simulation& simulation, std::uint64_t seed) {
     out.stopped_by = "interrupt";
   }
   return out;
+}
+
+const char* name_of(Origin origin) {
+  return origin == Origin::total ? "total" : origin == Origin::direct ? "direct" : "diffuse";
+}
+
+const char* name_of(Component component) {
+  switch (component) {
+    case Component::all:
+      return "all";
+    case Component::uc_sgl:
+      return "uc_sgl";
+    case Component::co_sgl:
+      return "co_sgl";
+    case Component::mlt:
+      return "mlt";
+  }
+  return "";
+}
+
+void Estimates::resize(std::size_t size) {
+  value.assign(size, 0.0);
+  standard_error.assign(size, 0.0);
 }
 
 }  // namespace bpms

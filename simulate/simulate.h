@@ -87,5 +87,7 @@ struct Result {
 
 // Stops at Ctrl-C with what is done (stopped_by "interrupt"); throws `interrupted` when that is nothing.
 Result simulate(const Simulation& simulation, std::uint64_t seed);
+// The same with the scene's rays at hand already.
+Result simulate(const Simulation& simulation, const Intersector& intersector, std::uint64_t seed);
 
 }  // namespace bpms

@@ -16,10 +16,11 @@ using bpms::Cli;
 
 constexpr void (*verbs[])(Cli&) = {
     bpms::add_check,
-    bpms::add_build,
-    bpms::add_describe,
+    bpms::add_calibrate,
     bpms::add_reconstruct,
     bpms::add_fit,
+    bpms::add_build,
+    bpms::add_describe,
     bpms::add_simulate,
     bpms::add_report,
 };

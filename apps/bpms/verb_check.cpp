@@ -6,12 +6,15 @@
 #include "apps/bpms/file_kinds.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
+#include "calibrate/rig.h"
+#include "calibrate/target.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/records.h"
 #include "core/text.h"
 #include "plant/canopy.h"
 #include "plant/plant.h"
+#include "simulate/simulate.h"
 
 namespace bpms {
 namespace {
@@ -33,6 +36,16 @@ std::string check_canopy(const std::string& path) {
   return fmt::format("{} plants from {} plant files", canopy.placements.size(), canopy.plants.size());
 }
 
+std::string check_scene(const std::string& path) {
+  const Simulation simulation = read_simulation(path);
+  for (const std::string& text : simulation.scene.notes) note(text);
+  std::size_t views = 0;
+  for (const auto& sensor : simulation.sensors) views += sensor->views();
+  return fmt::format("{} instances of {} prototypes, {} materials, {} sensors, {} views, {} bands",
+                     simulation.scene.instances.size(), simulation.scene.prototypes.size(),
+                     simulation.materials.size(), simulation.sensors.size(), views, simulation.bands.count());
+}
+
 const std::vector<FileKind>& kinds() {
   static const std::vector<FileKind> table{
       {"points.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "u_px"); },
@@ -41,13 +54,37 @@ const std::vector<FileKind>& kinds() {
        }},
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
-      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
+      {"plant.bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
        check_plant},
       {"canopy.toml",
        [](const std::string& path, std::string_view head) {
          return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
        },
        check_canopy},
+      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
+      {"rig.toml",
+       [](const std::string&, std::string_view head) {
+         return head.find("[[cameras]]") != std::string_view::npos;
+       },
+       [](const std::string& path) { return fmt::format("{} cameras", read_rig(path).cameras.size()); }},
+      {"board.toml",
+       [](const std::string&, std::string_view head) {
+         return head.find("square_m") != std::string_view::npos;
+       },
+       [](const std::string& path) { return fmt::format("{} corners", read_board(path).size()); }},
+      {"canopy.toml",
+       [](const std::string& path, std::string_view head) {
+         return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
+       },
+       check_canopy},
+      {"scene.toml",
+       [](const std::string& path, std::string_view head) {
+         if (!path.ends_with(".toml")) return false;
+         for (const char* table : {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
+           if (head.find(table) != std::string_view::npos) return true;
+         return false;
+       },
+       check_scene},
   };
   return table;
 }

@@ -10,6 +10,7 @@ test("an uncertainty has two significant digits and the value the same decimals"
 
 test("an uncertainty that rounds up to the next power of ten moves the last digit", () => {
   expect(withSigma(12.3456, 0.0996)).toBe("12.35 ± 0.10");
+  expect(withSigma(12.341, 0.96)).toBe("12.34 ± 0.96");
 });
 
 test("an uncertainty above ten rounds the value to its place", () => {

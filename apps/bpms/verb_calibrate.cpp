@@ -1,0 +1,199 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "apps/bpms/verb.h"
+#include "apps/bpms/verbs.h"
+#include "calibrate/calibrate.h"
+#include "calibrate/chessboard_detector.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace bpms {
+namespace {
+
+struct Options {
+  std::vector<std::string> images;
+  std::string corners, image_size, target, model = "brown4";
+  bool no_warp = false;
+};
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+Json vector(const Eigen::Vector3d& v) {
+  return {number(v.x()), number(v.y()), number(v.z())};
+}
+
+int parameters_of_model(const std::string& model) {
+  if (model == "brown4") return 8;
+  if (model == "brown5") return 9;
+  if (model == "brown8") return 12;
+  bad_input({}, "--model {}; expected brown4, brown5 or brown8", in_quotes(model));
+}
+
+std::pair<int, int> parse_size(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  if (cross != std::string::npos) {
+    const auto width = parse_integer(text.substr(0, cross)), height = parse_integer(text.substr(cross + 1));
+    constexpr long long most = 1'000'000;
+    if (width && height && *width > 0 && *height > 0 && *width <= most && *height <= most)
+      return {static_cast<int>(*width), static_cast<int>(*height)};
+  }
+  bad_input({}, "--image-size {}; expected WIDTHxHEIGHT, as in 640x480", in_quotes(text));
+}
+
+Json camera_json(const Calibration& c, std::size_t index) {
+  const Camera& camera = c.rig.cameras[index];
+  const auto& order = c.rig.covariance->order;
+  Json sigma = Json::object(), clustered = Json::object();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::string prefix = camera.name + ".";
+    if (!order[i].starts_with(prefix)) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    sigma[order[i].substr(prefix.size())] = number(c.sigma_iid[k]);
+    clustered[order[i].substr(prefix.size())] =
+        c.sigma_clustered.size() > 0 ? number(c.sigma_clustered[k]) : Json(nullptr);
+  }
+  const std::vector<double>& p = camera.parameters;
+  return {{"name", camera.name},
+          {"model", camera.model},
+          {"width", camera.width_px},
+          {"height", camera.height_px},
+          {"fx", number(p[0])},
+          {"fy", number(p[1])},
+          {"cx", number(p[2])},
+          {"cy", number(p[3])},
+          {"distortion", std::vector<double>(p.begin() + 4, p.end())},
+          {"sigma", sigma},
+          {"sigma_clustered", clustered}};
+}
+
+Json pair_json(const Calibration& c, const Calibration::Pair& pair) {
+  return {{"a", c.rig.cameras[static_cast<std::size_t>(pair.a)].name},
+          {"b", c.rig.cameras[static_cast<std::size_t>(pair.b)].name},
+          {"baseline_m", number(pair.baseline_m)},
+          {"baseline_sigma_m", number(pair.baseline_sigma_m)},
+          {"baseline_sigma_clustered_m",
+           pair.baseline_sigma_clustered_m ? number(*pair.baseline_sigma_clustered_m) : Json(nullptr)},
+          {"rotation_deg", vector(pair.rotation_vector * degrees(1.0))},
+          {"translation_m", vector(pair.translation_m)}};
+}
+
+Json view_json(const Calibration::View& view) {
+  Json residuals = Json::array();
+  for (const Eigen::Vector4d& r : view.residuals) residuals.push_back({r[0], r[1], r[2], r[3]});
+  return {{"image", view.image},           {"camera", view.camera},   {"frame", view.frame},
+          {"rms_px", number(view.rms_px)}, {"outlier", view.outlier}, {"reason", view.reason},
+          {"residuals", residuals}};
+}
+
+Json report(const Calibration& c, const Observations& observations, const Target& target,
+            const std::string& model) {
+  Json out{{"model", model},
+           {"target",
+            {{"kind", target.kind},
+             {"columns", target.columns},
+             {"rows", target.rows},
+             {"square_m", target.square_m}}},
+           {"cameras", Json::array()},
+           {"pairs", Json::array()},
+           {"residual_rms_px", number(c.residual_rms_px)},
+           {"residual_sigma_px", number(c.residual_sigma_px)},
+           {"degrees_of_freedom", c.degrees_of_freedom},
+           {"frames", c.frames},
+           {"corners_used", c.corners_used},
+           {"corners_total", c.corners_total},
+           {"views", Json::array()},
+           {"skipped", Json::array()},
+           {"outliers", Json::array()},
+           {"board_warp_m", {number(c.board_warp_m.x()), number(c.board_warp_m.y())}},
+           {"covariance_kind", c.rig.covariance->kind},
+           {"converged", c.converged}};
+  for (std::size_t i = 0; i < c.rig.cameras.size(); ++i) out["cameras"].push_back(camera_json(c, i));
+  for (const auto& pair : c.pairs) out["pairs"].push_back(pair_json(c, pair));
+  for (const auto& view : c.views) out["views"].push_back(view_json(view));
+  for (const auto& [image, reason] : observations.skipped)
+    out["skipped"].push_back({{"image", image}, {"reason", reason}});
+  for (const auto& o : c.outliers)
+    out["outliers"].push_back(
+        {{"image", o.image}, {"corner", o.corner}, {"residual_px", number(o.residual_px)}});
+  if (c.half_sets)
+    out["half_sets"] = {{"odd_baseline_m", number(c.half_sets->odd_baseline_m)},
+                        {"even_baseline_m", number(c.half_sets->even_baseline_m)},
+                        {"difference_m", number(c.half_sets->odd_baseline_m - c.half_sets->even_baseline_m)},
+                        {"sigma_clustered_m", number(c.half_sets->sigma_clustered_m)}};
+  out["seconds"] = {{"solve", c.solve_seconds}, {"uncertainty", c.uncertainty_seconds}};
+  return out;
+}
+
+void tell(const Calibration& c, const Observations& observations) {
+  for (const auto& [image, reason] : observations.skipped) note(fmt::format("skipped {}: {}", image, reason));
+  for (const auto& view : c.views) {
+    if (view.outlier) note(fmt::format("outlier view {}: {}", view.image, view.reason));
+  }
+  if (!c.clustered_absent.empty())
+    note("no clustered sigmas, the iid ones are too small on real boards: " + c.clustered_absent);
+  note(fmt::format("{} of {} corners in {} views ({} images skipped), residual {:.3f} px, solved in {:.2f} s",
+                   c.corners_used, c.corners_total, c.views.size(), observations.skipped.size(),
+                   c.residual_sigma_px, c.solve_seconds));
+  for (const auto& pair : c.pairs)
+    note(fmt::format("baseline {} - {}: {:.3f} mm +- {:.3f} mm ({:.3f} as if corners erred independently)",
+                     c.rig.cameras[static_cast<std::size_t>(pair.a)].name,
+                     c.rig.cameras[static_cast<std::size_t>(pair.b)].name, pair.baseline_m * 1e3,
+                     pair.baseline_sigma_clustered_m.value_or(pair.baseline_sigma_m) * 1e3,
+                     pair.baseline_sigma_m * 1e3));
+}
+
+void run(const Cli& cli, const Options& options) {
+  const std::string& output = require_output(cli);
+  const Target target = parse_target(options.target);
+  CalibrateOptions settings;
+  settings.parameters = parameters_of_model(options.model);
+  settings.board_warp = !options.no_warp;
+  Provenance made_from = provenance(cli);
+  if (options.target.ends_with(".toml")) made_from.add_input(options.target);
+  Observations observations;
+  if (!options.corners.empty()) {
+    if (!options.images.empty()) bad_input({}, "--images and --corners exclude each other");
+    if (options.image_size.empty()) bad_input({}, "--corners needs --image-size WIDTHxHEIGHT");
+    const auto [width, height] = parse_size(options.image_size);
+    observations = read_corners(options.corners, width, height, target.size());
+    made_from.add_input(options.corners);
+  } else {
+    if (options.images.empty()) bad_input({}, "nothing to calibrate from: give --images or --corners");
+    observations = find_corners(expand_patterns(options.images), target);
+    for (const BoardView& view : observations.views) made_from.add_input(view.image);
+  }
+  for (const auto& camera : observations.cameras)
+    note(fmt::format("camera {}: {}x{} pixels", camera.name, camera.width_px, camera.height_px));
+  const Calibration result = calibrate(observations, target, settings);
+  tell(result, observations);
+  write_file(output, rig_toml(result.rig, "bpms " + version() + "\n" + in_quotes(cli.command)),
+             cli.common.overwrite);
+  deliver_report(cli, "calibrate", report(result, observations, target, options.model), made_from);
+}
+
+}  // namespace
+
+void add_calibrate(Cli& cli) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = add_verb(
+      cli, "calibrate", "cameras, lenses and poses from images of a target",
+      "bpms calibrate --images 'left[0-9]*.jpg' 'right[0-9]*.jpg' --target chessboard:9x6:25mm -o rig.toml",
+      [&cli, options] { run(cli, *options); });
+  verb->add_option("--images", options->images, "images or patterns; left01.jpg is frame 01 of camera left");
+  verb->add_option("--corners", options->corners, "corners already found: rows of filename x y level");
+  verb->add_option("--image-size", options->image_size, "of the images behind --corners, as in 640x480");
+  verb->add_option("--target", options->target,
+                   "chessboard:COLUMNSxROWS:SQUARE (inner corners) or board.toml")
+      ->required();
+  verb->add_option("--model", options->model,
+                   "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational)");
+  verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
+}
+
+}  // namespace bpms
