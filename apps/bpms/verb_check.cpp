@@ -54,6 +54,13 @@ const std::vector<FileKind>& kinds() {
        }},
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
+      {"plant.bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
+       check_plant},
+      {"canopy.toml",
+       [](const std::string& path, std::string_view head) {
+         return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
+       },
+       check_canopy},
       {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
       {"rig.toml",
        [](const std::string&, std::string_view head) {

@@ -70,9 +70,9 @@ std::optional<Row> cut(const Eigen::Vector2d& point, const Eigen::Vector2d& alon
 RowSet open_rows(double spacing_m, double azimuth, const PlantingField& field) {
   RowSet out{{std::sin(azimuth), std::cos(azimuth)}, {std::cos(azimuth), -std::sin(azimuth)}, spacing_m, {}};
   const double reach = (out.across.cwiseAbs().array() * field.size_m.array()).sum() / 2;
-  const auto half = static_cast<long long>(std::ceil(reach / spacing_m));
-  for (long long i = -half; i < half; ++i) {
-    const double offset = (static_cast<double>(i) + 0.5) * spacing_m;
+  const long long count = std::max(1LL, std::llround(2 * reach / spacing_m));
+  for (long long i = 0; i < count; ++i) {
+    const double offset = (static_cast<double>(i) - static_cast<double>(count - 1) / 2) * spacing_m;
     if (const auto row = cut(offset * out.across, out.along, field)) out.rows.push_back(*row);
   }
   return out;
