@@ -94,7 +94,8 @@ bool invert_normal_matrix(const Eigen::MatrixXd& jacobian, Eigen::MatrixXd& inve
     full = full && seen;
     d[k] = seen ? 1 / d[k] : 0;
   }
-  inverse = scale.asDiagonal() * eigen.eigenvectors() * d.asDiagonal() * eigen.eigenvectors().transpose() * scale.asDiagonal();
+  inverse = scale.asDiagonal() * eigen.eigenvectors() * d.asDiagonal() * eigen.eigenvectors().transpose() *
+            scale.asDiagonal();
   return full;
 }
 

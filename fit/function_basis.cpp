@@ -7,13 +7,11 @@
 namespace bpms {
 
 const double gauss_node[gauss_points] = {0.033765242898423986, 0.16939530676686774, 0.38069040695840155,
-                                         0.61930959304159845, 0.83060469323313226, 0.96623475710157601};
+                                         0.61930959304159845,  0.83060469323313226, 0.96623475710157601};
 const double gauss_weight[gauss_points] = {0.085662246189585173, 0.18038078652406930, 0.23395696728634552,
-                                           0.23395696728634552, 0.18038078652406930, 0.085662246189585173};
+                                           0.23395696728634552,  0.18038078652406930, 0.085662246189585173};
 
 namespace {
-
-constexpr int most_coefficients = 64;
 
 // Panels between breaks, so fine that the six-point rule integrates products of two basis functions.
 std::vector<double> panel_ends(const std::vector<double>& breaks) {
@@ -21,7 +19,8 @@ std::vector<double> panel_ends(const std::vector<double>& breaks) {
   std::vector<double> ends = breaks;
   for (int i = 0; i <= uniform; ++i) ends.push_back(static_cast<double>(i) / uniform);
   std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < 1e-12; }), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < 1e-12; }),
+             ends.end());
   return ends;
 }
 
@@ -44,7 +43,8 @@ Eigen::MatrixXd gram_matrix(const OrganFunction& family) {
 
 FunctionBasis::FunctionBasis(FunctionChoice choice, bool with_constant) : choice_(choice) {
   // A constant is the same in every kind, and the power series has it as its order 0.
-  family_ = choice.order == 0 ? blank_organ_function('p', 0, 1.0) : blank_organ_function(choice.code, choice.order, 1.0);
+  family_ = choice.order == 0 ? blank_organ_function('p', 0, 1.0)
+                              : blank_organ_function(choice.code, choice.order, 1.0);
   const int n = family_->coefficients();
   if (n > most_coefficients) bad_input({}, "a function of {} coefficients is more than a fit can use", n);
   const Eigen::MatrixXd gram = gram_matrix(*family_);
@@ -64,7 +64,8 @@ FunctionBasis::FunctionBasis(FunctionChoice choice, bool with_constant) : choice
   }
   const std::size_t first = with_constant ? 0 : 1;
   transform_.resize(n, static_cast<Eigen::Index>(columns.size() - first));
-  for (std::size_t k = first; k < columns.size(); ++k) transform_.col(static_cast<Eigen::Index>(k - first)) = columns[k];
+  for (std::size_t k = first; k < columns.size(); ++k)
+    transform_.col(static_cast<Eigen::Index>(k - first)) = columns[k];
 }
 
 void FunctionBasis::values(double l, double* out) const {
@@ -73,12 +74,15 @@ void FunctionBasis::values(double l, double* out) const {
   family_->basis(l, raw.data());
   for (Eigen::Index k = 0; k < transform_.cols(); ++k) {
     double sum = 0;
-    for (Eigen::Index i = 0; i < transform_.rows(); ++i) sum += transform_(i, k) * raw[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i < transform_.rows(); ++i)
+      sum += transform_(i, k) * raw[static_cast<std::size_t>(i)];
     out[k] = sum;
   }
 }
 
-void FunctionBasis::raw(double l, double* out) const { family_->basis(l, out); }
+void FunctionBasis::raw(double l, double* out) const {
+  family_->basis(l, out);
+}
 
 std::vector<double> FunctionBasis::breaks() const {
   return family_ ? family_->breaks() : std::vector<double>{};
@@ -103,7 +107,8 @@ Eigen::VectorXd FunctionBasis::project(const std::vector<double>& l, const std::
   return a.colPivHouseholderQr().solve(b);
 }
 
-std::unique_ptr<OrganFunction> FunctionBasis::function(const Eigen::VectorXd& coefficients, double scale) const {
+std::unique_ptr<OrganFunction> FunctionBasis::function(const Eigen::VectorXd& coefficients,
+                                                       double scale) const {
   const auto blank = blank_organ_function(family_->code(), choice_.order, scale);
   return blank->with_coefficients({coefficients.data(), coefficients.data() + coefficients.size()});
 }

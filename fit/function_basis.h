@@ -1,7 +1,7 @@
 // The functions of one kind and order as a vector space, with a basis that is orthonormal in L2 on [0, 1]:
 //   value(l) = sum_k beta_k phi_k(l),  integral of phi_j phi_k = delta_jk,  phi_0 = 1.
-// The normal equations of a fit are then well conditioned whatever the kind, and "the mean of the function is zero"
-// is simply beta_0 = 0. Coefficients in the text's own basis (p, f, n, s) are transform() * beta.
+// The normal equations of a fit are then well conditioned whatever the kind, and "the mean of the function is
+// zero" is simply beta_0 = 0. Coefficients in the text's own basis (p, f, n, s) are transform() * beta.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -19,6 +19,8 @@ struct FunctionChoice {
   std::string str() const { return std::string(1, code) + ":" + std::to_string(order); }
   bool operator==(const FunctionChoice&) const = default;
 };
+
+inline constexpr int most_coefficients = 15;  // of one function: more than digitised points can carry
 
 class FunctionBasis {
  public:

@@ -17,10 +17,12 @@ std::optional<FunctionChoice> parse_choice(std::string_view text) {
   const auto order = colon == std::string_view::npos ? std::nullopt : parse_integer(text.substr(colon + 1));
   const bool knots = text.starts_with('n') || text.starts_with('s');
   if (colon != 1 || std::string_view("npfs").find(text[0]) == std::string_view::npos || !order)
-    bad_input({}, "found {} as function, expected auto, n:KNOTS, p:DEGREE, f:HARMONICS or s:KNOTS, as p:3", in_quotes(text));
+    bad_input({}, "found {} as function, expected auto, n:KNOTS, p:DEGREE, f:HARMONICS or s:KNOTS, as p:3",
+              in_quotes(text));
   const int least = knots ? 2 : 0;
   if (*order < least || *order > highest_order)
-    bad_input({}, "function {}: found order {}, expected {} to {}", in_quotes(text), *order, least, highest_order);
+    bad_input({}, "function {}: found order {}, expected {} to {}", in_quotes(text), *order, least,
+              highest_order);
   return FunctionChoice{text[0], static_cast<int>(*order)};
 }
 
@@ -52,10 +54,14 @@ FunctionRequest parse_function_request(std::string_view text) {
 
 std::string role_name(FunctionRole role) {
   switch (role) {
-    case FunctionRole::inclination: return "inclination";
-    case FunctionRole::azimuth: return "azimuth";
-    case FunctionRole::twist: return "twist";
-    case FunctionRole::width: return "width";
+    case FunctionRole::inclination:
+      return "inclination";
+    case FunctionRole::azimuth:
+      return "azimuth";
+    case FunctionRole::twist:
+      return "twist";
+    case FunctionRole::width:
+      return "width";
   }
   return "";
 }
@@ -63,15 +69,16 @@ std::string role_name(FunctionRole role) {
 std::vector<FunctionChoice> function_candidates(FunctionRole role) {
   switch (role) {
     case FunctionRole::inclination:
-      return {{'p', 0}, {'p', 1}, {'p', 2}, {'p', 3}, {'p', 4}, {'p', 5}, {'f', 1}, {'f', 2}, {'f', 3}, {'f', 4},
-              {'f', 5}, {'n', 3}, {'n', 4}, {'n', 5}, {'n', 6}, {'s', 3}, {'s', 4}, {'s', 5}, {'s', 6}};
+      return {{'p', 0}, {'p', 1}, {'p', 2}, {'p', 3}, {'p', 4}, {'p', 5}, {'f', 1},
+              {'f', 2}, {'f', 3}, {'f', 4}, {'f', 5}, {'n', 3}, {'n', 4}, {'n', 5},
+              {'n', 6}, {'s', 3}, {'s', 4}, {'s', 5}, {'s', 6}};
     case FunctionRole::azimuth:
     case FunctionRole::twist:
       return {{'p', 0}, {'p', 1}, {'p', 2}, {'p', 3}, {'p', 4}, {'f', 1}, {'f', 2},
               {'f', 3}, {'n', 3}, {'n', 4}, {'n', 5}, {'s', 3}, {'s', 4}, {'s', 5}};
     case FunctionRole::width:
-      return {{'p', 1}, {'p', 2}, {'p', 3}, {'p', 4}, {'p', 5}, {'f', 2}, {'f', 3},
-              {'f', 4}, {'n', 3}, {'n', 4}, {'n', 5}, {'n', 6}, {'s', 4}, {'s', 5}, {'s', 6}};
+      return {{'p', 1}, {'p', 2}, {'p', 3}, {'p', 4}, {'p', 5}, {'f', 2}, {'f', 3}, {'f', 4},
+              {'n', 3}, {'n', 4}, {'n', 5}, {'n', 6}, {'s', 4}, {'s', 5}, {'s', 6}};
   }
   return {};
 }

@@ -8,8 +8,7 @@
 namespace bpms {
 namespace {
 
-constexpr std::size_t most_basis = 64;
-using Basis = std::array<double, most_basis>;
+using Basis = std::array<double, most_coefficients>;
 
 // Twelve panels of a six-point rule: error below 1e-12 of the length for angles that turn by a few radians.
 std::vector<double> panels(const LeafModelShape& shape) {
@@ -18,7 +17,8 @@ std::vector<double> panels(const LeafModelShape& shape) {
   for (const double b : shape.azimuth.breaks()) ends.push_back(b);
   for (int i = 0; i <= uniform; ++i) ends.push_back(static_cast<double>(i) / uniform);
   std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < 1e-9; }), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < 1e-9; }),
+             ends.end());
   ends.back() = 1.0;
   return ends;
 }
@@ -73,13 +73,14 @@ void LeafModel::set(const Eigen::VectorXd& parameters, bool with_derivatives) {
     at_end_[p + 1] = at_end_[p];
     for (int g = 0; g < gauss_points; ++g) {
       const Eigen::Index column = static_cast<Eigen::Index>(p) * gauss_points + g;
-      add_node(table_i_.col(column).data(), table_a_.col(column).data(), (ends_[p + 1] - ends_[p]) * gauss_weight[g],
-               with_derivatives, at_end_[p + 1]);
+      add_node(table_i_.col(column).data(), table_a_.col(column).data(),
+               (ends_[p + 1] - ends_[p]) * gauss_weight[g], with_derivatives, at_end_[p + 1]);
     }
   }
 }
 
-Eigen::Vector3d LeafModel::edge_offset(double l, double side, Eigen::Matrix<double, 3, 4>* derivatives) const {
+Eigen::Vector3d LeafModel::edge_offset(double l, double side,
+                                       Eigen::Matrix<double, 3, 4>* derivatives) const {
   Basis phi;
   shape_.inclination.values(l, phi.data());
   const double i = dot(phi.data(), parameters_, at_inclination(), shape_.inclination.size());
@@ -89,13 +90,15 @@ Eigen::Vector3d LeafModel::edge_offset(double l, double side, Eigen::Matrix<doub
   const double t = dot(phi.data(), parameters_, at_twist(), shape_.twist.size());
   shape_.width.values(l, phi.data());
   const double w = dot(phi.data(), parameters_, at_width(), shape_.width.size());
-  const double si = std::sin(i), ci = std::cos(i), sa = std::sin(a), ca = std::cos(a), st = std::sin(t), ct = std::cos(t);
+  const double si = std::sin(i), ci = std::cos(i), sa = std::sin(a), ca = std::cos(a), st = std::sin(t),
+               ct = std::cos(t);
   // Columns of Ry(i) Rx(a): x0, y0, z0; y turned by the twist is ct y0 - st x0.
   const Eigen::Vector3d x0(ci, 0, -si), y0(si * sa, ca, ci * sa), z0(si * ca, -sa, ci * ca);
   const Eigen::Vector3d y = ct * y0 - st * x0;
   const double half = side * w / 2;
   if (derivatives != nullptr) {
-    derivatives->col(0) = half * (ct * Eigen::Vector3d(ci * sa, 0, -si * sa) - st * Eigen::Vector3d(-si, 0, -ci));
+    derivatives->col(0) =
+        half * (ct * Eigen::Vector3d(ci * sa, 0, -si * sa) - st * Eigen::Vector3d(-si, 0, -ci));
     derivatives->col(1) = half * ct * z0;
     derivatives->col(2) = half * (-st * y0 - ct * x0);
     derivatives->col(3) = side / 2 * y;
@@ -164,13 +167,17 @@ void LeafModel::point(LeafCurve curve, double l, bool with_derivatives, Point& o
   out.jacobian.middleCols(at_azimuth(), na) = length * turn * integral.middleCols(1 + ni, na);
   if (side == 0) return;
   by_edge = turn * by_edge;
-  for (int k = 0; k < ni; ++k) out.jacobian.col(at_inclination() + k) += phi_i[static_cast<std::size_t>(k)] * by_edge.col(0);
-  for (int k = 0; k < na; ++k) out.jacobian.col(at_azimuth() + k) += phi_a[static_cast<std::size_t>(k)] * by_edge.col(1);
+  for (int k = 0; k < ni; ++k)
+    out.jacobian.col(at_inclination() + k) += phi_i[static_cast<std::size_t>(k)] * by_edge.col(0);
+  for (int k = 0; k < na; ++k)
+    out.jacobian.col(at_azimuth() + k) += phi_a[static_cast<std::size_t>(k)] * by_edge.col(1);
   Basis phi;
   shape_.twist.values(l, phi.data());
-  for (int k = 0; k < shape_.twist.size(); ++k) out.jacobian.col(at_twist() + k) = phi[static_cast<std::size_t>(k)] * by_edge.col(2);
+  for (int k = 0; k < shape_.twist.size(); ++k)
+    out.jacobian.col(at_twist() + k) = phi[static_cast<std::size_t>(k)] * by_edge.col(2);
   shape_.width.values(l, phi.data());
-  for (int k = 0; k < shape_.width.size(); ++k) out.jacobian.col(at_width() + k) = phi[static_cast<std::size_t>(k)] * by_edge.col(3);
+  for (int k = 0; k < shape_.width.size(); ++k)
+    out.jacobian.col(at_width() + k) = phi[static_cast<std::size_t>(k)] * by_edge.col(3);
 }
 
 }  // namespace bpms

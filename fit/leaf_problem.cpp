@@ -46,7 +46,8 @@ LeafObservation observation(const VectorPoint& point, LeafCurve curve, const Lea
 // Arc length of the polyline at each point, not normalised.
 std::vector<double> arc_lengths(const std::vector<VectorPoint>& points) {
   std::vector<double> out{0};
-  for (std::size_t k = 1; k < points.size(); ++k) out.push_back(out.back() + (points[k].x_m - points[k - 1].x_m).norm());
+  for (std::size_t k = 1; k < points.size(); ++k)
+    out.push_back(out.back() + (points[k].x_m - points[k - 1].x_m).norm());
   return out;
 }
 
@@ -56,15 +57,19 @@ bool errors_of(const MeasuredOrgan& organ) {
   for (const auto* list : {&organ.midrib, &organ.edge_left, &organ.edge_right}) {
     for (const VectorPoint& p : *list) {
       ++all;
-      if (p.covariance_m2.trace() > 0) ++with;
-      else without = &p;
+      if (p.covariance_m2.trace() > 0)
+        ++with;
+      else
+        without = &p;
     }
   }
-  if (with != 0 && with != all) bad_input(without->where, "{}: this point has no covariance, others of the organ have", organ.str());
+  if (with != 0 && with != all)
+    bad_input(without->where, "{}: this point has no covariance, others of the organ have", organ.str());
   return with != 0;
 }
 
-// From the base to the middle of the leaf, in the horizontal; for a leaf that ends above its base, the widest way.
+// From the base to the middle of the leaf, in the horizontal; for a leaf that ends above its base, the widest
+// way.
 double outward_direction(const std::vector<VectorPoint>& points, const std::vector<double>& arc) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
@@ -91,24 +96,28 @@ Eigen::Vector3d along(const std::vector<LeafObservation>& midrib, double l) {
 }
 
 void unwrap(std::vector<double>& angle) {
-  for (std::size_t k = 1; k < angle.size(); ++k) angle[k] -= 2 * pi * std::round((angle[k] - angle[k - 1]) / (2 * pi));
+  for (std::size_t k = 1; k < angle.size(); ++k)
+    angle[k] -= 2 * pi * std::round((angle[k] - angle[k - 1]) / (2 * pi));
 }
 
 }  // namespace
 
-std::optional<LeafProblem> leaf_problem(const MeasuredOrgan& organ, const FitOptions& options, std::string& failure) {
+std::optional<LeafProblem> leaf_problem(const MeasuredOrgan& organ, const FitOptions& options,
+                                        std::string& failure) {
   constexpr std::size_t least_points = 4;
   std::size_t distinct = organ.midrib.empty() ? 0 : 1;
   for (std::size_t k = 1; k < organ.midrib.size(); ++k) {
     if (organ.midrib[k].x_m != organ.midrib[k - 1].x_m) ++distinct;
   }
   if (distinct < least_points) {
-    failure = fmt::format("{} midrib points in different places, at least {} are needed", distinct, least_points);
+    failure =
+        fmt::format("{} midrib points in different places, at least {} are needed", distinct, least_points);
     return std::nullopt;
   }
   for (const auto* list : {&organ.midrib, &organ.edge_left, &organ.edge_right}) {
     for (const VectorPoint& p : *list)
-      if (!p.x_m.allFinite() || !p.covariance_m2.allFinite()) bad_input(p.where, "{}: a coordinate is not a number", organ.str());
+      if (!p.x_m.allFinite() || !p.covariance_m2.allFinite())
+        bad_input(p.where, "{}: a coordinate is not a number", organ.str());
   }
   const std::vector<double> arc = arc_lengths(organ.midrib);
   LeafProblem out;
@@ -129,13 +138,16 @@ std::optional<LeafProblem> leaf_problem(const MeasuredOrgan& organ, const FitOpt
     out.base_axes = out.planar ? std::vector<int>{0, 2} : std::vector<int>{0, 1, 2};
   }
   for (const VectorPoint& p : organ.edge_left) out.edges.push_back(observation(p, LeafCurve::edge_left, out));
-  for (const VectorPoint& p : organ.edge_right) out.edges.push_back(observation(p, LeafCurve::edge_right, out));
+  for (const VectorPoint& p : organ.edge_right)
+    out.edges.push_back(observation(p, LeafCurve::edge_right, out));
   if (out.planar) {
     out.direction_free = false;
-    if (!out.edges.empty()) bad_input(organ.edge_left.empty() ? organ.edge_right[0].where : organ.edge_left[0].where,
-                                      "{}: edges need y coordinates", organ.str());
+    if (!out.edges.empty())
+      bad_input(organ.edge_left.empty() ? organ.edge_right[0].where : organ.edge_left[0].where,
+                "{}: edges need y coordinates", organ.str());
   } else if (options.direction || organ.organ != "leaf") {
-    // A stem stands nearly upright, where a direction about the vertical means nothing: two angles from the vertical.
+    // A stem stands nearly upright, where a direction about the vertical means nothing: two angles from the
+    // vertical.
     out.direction_free = false;
     out.direction = options.direction.value_or(0.0);
     out.azimuth_constant = true;
@@ -162,7 +174,8 @@ LeafModelShape leaf_shape(const LeafProblem& problem, FunctionChoice inclination
 
 Eigen::VectorXd midrib_start(const LeafProblem& problem, const LeafModel& model, int pieces) {
   const LeafModelShape& shape = model.shape();
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(problem.direction, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(problem.direction, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   std::vector<double> l, weight, inclination, azimuth;
   for (int k = 0; k < pieces; ++k) {
     const double from = static_cast<double>(k) / pieces, to = static_cast<double>(k + 1) / pieces;
@@ -178,14 +191,16 @@ Eigen::VectorXd midrib_start(const LeafProblem& problem, const LeafModel& model,
   out[LeafModel::at_length()] = 1;
   if (shape.direction_free) out[model.at_direction()] = problem.direction;
   for (std::size_t k = 0; k < shape.base_axes.size(); ++k)
-    out[model.at_base() + static_cast<int>(k)] = problem.midrib.front().x[shape.base_axes[k]] - problem.base[shape.base_axes[k]];
-  out.segment(model.at_inclination(), shape.inclination.size()) = shape.inclination.project(l, inclination, weight);
+    out[model.at_base() + static_cast<int>(k)] =
+        problem.midrib.front().x[shape.base_axes[k]] - problem.base[shape.base_axes[k]];
+  out.segment(model.at_inclination(), shape.inclination.size()) =
+      shape.inclination.project(l, inclination, weight);
   out.segment(model.at_azimuth(), shape.azimuth.size()) = shape.azimuth.project(l, azimuth, weight);
   return out;
 }
 
-bool edge_start(LeafProblem& problem, const LeafModel& solved_midrib, std::vector<double>& l, std::vector<double>& twist,
-                std::vector<double>& width) {
+bool edge_start(LeafProblem& problem, const LeafModel& solved_midrib, std::vector<double>& l,
+                std::vector<double>& twist, std::vector<double>& width) {
   constexpr int steps = 40;
   struct Seen {
     double l, twist, half;
@@ -204,7 +219,8 @@ bool edge_start(LeafProblem& problem, const LeafModel& solved_midrib, std::vecto
     }
     const Eigen::Matrix3d frame = solved_midrib.frame(o.l);
     solved_midrib.point(LeafCurve::midrib, o.l, false, point);
-    const Eigen::Vector3d out = frame.transpose() * (o.x - point.x) * (o.curve == LeafCurve::edge_left ? 1.0 : -1.0);
+    const Eigen::Vector3d out =
+        frame.transpose() * (o.x - point.x) * (o.curve == LeafCurve::edge_left ? 1.0 : -1.0);
     seen.push_back({o.l, std::atan2(-out.x(), out.y()), std::hypot(out.x(), out.y()), &o});
   }
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.l < b.l; });
@@ -213,7 +229,8 @@ bool edge_start(LeafProblem& problem, const LeafModel& solved_midrib, std::vecto
   for (const Seen& s : seen) up += s.l <= seen.front().l + 1.0 / 3 ? s.half * std::cos(s.twist) : 0.0;
   const bool swapped = up < 0;
   for (const Seen& s : seen) {
-    if (swapped) s.o->curve = s.o->curve == LeafCurve::edge_left ? LeafCurve::edge_right : LeafCurve::edge_left;
+    if (swapped)
+      s.o->curve = s.o->curve == LeafCurve::edge_left ? LeafCurve::edge_right : LeafCurve::edge_left;
     l.push_back(s.l);
     twist.push_back(s.twist + (swapped ? pi : 0.0));
     width.push_back(2 * s.half);

@@ -30,7 +30,8 @@ void lean_outward(const LeafProblem& problem, LeafTrial& trial) {
 
 int numbers_that_count(const std::vector<LeafObservation>& observations) {
   int out = 0;
-  for (const LeafObservation& o : observations) out += o.weight > 0 ? o.dimensions - (o.place_free ? 1 : 0) : 0;
+  for (const LeafObservation& o : observations)
+    out += o.weight > 0 ? o.dimensions - (o.place_free ? 1 : 0) : 0;
   return out;
 }
 
@@ -40,7 +41,8 @@ LeafTrial solve_midrib(const LeafProblem& problem, FunctionChoice inclination, F
   constexpr double poor = 0.03;  // of the length: another start may find a better valley
   for (const int pieces : {8, 3, 20, 1}) {
     const CurveSolution found = solve_curves(model, problem.midrib, midrib_start(problem, model, pieces));
-    const bool better = best.solution.parameters.size() == 0 || (found.converged && !best.solution.converged) ||
+    const bool better = best.solution.parameters.size() == 0 ||
+                        (found.converged && !best.solution.converged) ||
                         (found.converged == best.solution.converged && found.chi2 < best.solution.chi2);
     if (better) best.solution = found;
     if (best.solution.converged && residual_rms(best.solution, problem.midrib) < poor) break;
@@ -50,8 +52,8 @@ LeafTrial solve_midrib(const LeafProblem& problem, FunctionChoice inclination, F
   return best;
 }
 
-LeafTrial solve_surface(const LeafProblem& problem, const LeafTrial& midrib, const EdgeStart& edges, FunctionChoice twist,
-                    FunctionChoice width) {
+LeafTrial solve_surface(const LeafProblem& problem, const LeafTrial& midrib, const EdgeStart& edges,
+                        FunctionChoice twist, FunctionChoice width) {
   LeafModelShape shape = midrib.model.shape();
   shape.twist = FunctionBasis(twist, true);
   shape.width = FunctionBasis(width, true);

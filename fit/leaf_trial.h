@@ -1,4 +1,5 @@
-// One trial of a leaf: a choice of functions, solved. The midrib alone first; then midrib and edges as one surface.
+// One trial of a leaf: a choice of functions, solved. The midrib alone first; then midrib and edges as one
+// surface.
 #pragma once
 #include <vector>
 

@@ -7,7 +7,9 @@
 namespace bpms {
 namespace {
 
-bool fitted_organ(const std::string& organ) { return organ == "leaf" || organ == "stem" || organ == "head"; }
+bool fitted_organ(const std::string& organ) {
+  return organ == "leaf" || organ == "stem" || organ == "head";
+}
 
 std::vector<VectorPoint>* points_of(MeasuredOrgan& organ, const std::string& feature) {
   if (feature == "midrib" || feature == "axis") return &organ.midrib;
@@ -18,24 +20,28 @@ std::vector<VectorPoint>* points_of(MeasuredOrgan& organ, const std::string& fea
 
 }  // namespace
 
-std::vector<MeasuredOrgan> group_organs(const std::vector<VectorPoint>& points, std::vector<std::string>& notes) {
+std::vector<MeasuredOrgan> group_organs(const std::vector<VectorPoint>& points,
+                                        std::vector<std::string>& notes) {
   std::vector<MeasuredOrgan> out;
   std::map<std::tuple<std::string, std::string, int, std::string>, std::size_t> known;
   std::map<std::string, int> ignored;
   for (const VectorPoint& point : points) {
     const OrganLabel& label = point.label;
+    if (label.organ == "bud") continue;  // a place, see bud_of_plant
     if (!fitted_organ(label.organ)) {
       ++ignored["organ '" + label.organ + "'"];
       continue;
     }
-    const auto [at, added] = known.try_emplace({label.plant, label.axis, label.rank, label.organ}, out.size());
+    const auto [at, added] =
+        known.try_emplace({label.plant, label.axis, label.rank, label.organ}, out.size());
     if (added) {
       MeasuredOrgan organ;
       organ.plant = label.plant;
       organ.axis = label.axis;
       organ.rank = label.rank;
       organ.organ = label.organ;
-      organ.key = fmt::format("plant {} axis {} rank {} {}", label.plant, label.axis, label.rank, label.organ);
+      organ.key =
+          fmt::format("plant {} axis {} rank {} {}", label.plant, label.axis, label.rank, label.organ);
       out.push_back(std::move(organ));
     }
     if (std::vector<VectorPoint>* list = points_of(out[at->second], label.feature)) {
@@ -46,9 +52,21 @@ std::vector<MeasuredOrgan> group_organs(const std::vector<VectorPoint>& points, 
   }
   for (MeasuredOrgan& organ : out) {
     for (auto* list : {&organ.midrib, &organ.edge_left, &organ.edge_right})
-      std::stable_sort(list->begin(), list->end(), [](const auto& a, const auto& b) { return a.point < b.point; });
+      std::stable_sort(list->begin(), list->end(),
+                       [](const auto& a, const auto& b) { return a.point < b.point; });
   }
-  for (const auto& [what, count] : ignored) notes.push_back(fmt::format("{}: {} points left out: no function is fitted to them", what, count));
+  for (const auto& [what, count] : ignored)
+    notes.push_back(fmt::format("{}: {} points left out: no function is fitted to them", what, count));
+  return out;
+}
+
+std::optional<Eigen::Vector3d> bud_of_plant(const std::vector<VectorPoint>& points,
+                                            const std::string& plant) {
+  std::optional<Eigen::Vector3d> out;
+  for (const VectorPoint& point : points) {
+    if (point.label.plant == plant && point.label.organ == "bud" && (!out || point.x_m.z() < out->z()))
+      out = point.x_m;
+  }
   return out;
 }
 

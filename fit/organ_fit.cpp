@@ -18,8 +18,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Solves every candidate and keeps the one with the best evidence; fills the table.
 template <class Solve>
-std::optional<FunctionChoice> choose(const std::vector<FunctionChoice>& candidates, int residuals, bool errors_known,
-                                     const Solve& solve, std::vector<std::pair<FunctionChoice, double>>& table) {
+std::optional<FunctionChoice> choose(const std::vector<FunctionChoice>& candidates, int residuals,
+                                     bool errors_known, const Solve& solve,
+                                     std::vector<std::pair<FunctionChoice, double>>& table) {
   struct Tried {
     FunctionChoice choice;
     double chi2;
@@ -29,7 +30,8 @@ std::optional<FunctionChoice> choose(const std::vector<FunctionChoice>& candidat
   for (const FunctionChoice& choice : candidates) {
     const std::optional<LeafTrial> trial = solve(choice, residuals);
     if (trial && trial->usable())
-      tried.push_back({choice, trial->solution.chi2, static_cast<int>(trial->solution.parameters.size()), trial->solution.residuals});
+      tried.push_back({choice, trial->solution.chi2, static_cast<int>(trial->solution.parameters.size()),
+                       trial->solution.residuals});
   }
   double inflation = 1;
   int richest = 0;
@@ -70,7 +72,8 @@ FittedFunction fitted_function(const FunctionBasis& basis, const CurveSolution& 
   out.choice = basis.choice();
   const Eigen::MatrixXd& t = basis.transform();
   out.coefficients = unit * t * solution.parameters.segment(at, basis.size());
-  out.covariance = unit * unit * variance_factor * t * solution.covariance.block(at, at, basis.size(), basis.size()) * t.transpose();
+  out.covariance = unit * unit * variance_factor * t *
+                   solution.covariance.block(at, at, basis.size(), basis.size()) * t.transpose();
   return out;
 }
 
@@ -104,12 +107,16 @@ void set_result(const LeafProblem& problem, const LeafTrial& trial, OrganFit& ou
     out.notes.push_back("the points do not determine all of the leaf's parameters: no standard errors");
   }
   out.variance_factor = factor;
-  if (!problem.errors_known) out.sigma_m = scale * std::sqrt(factor) / problem.midrib.front().whitening.col(0).norm();
+  if (!problem.errors_known)
+    out.sigma_m = scale * std::sqrt(factor) / problem.midrib.front().whitening.col(0).norm();
   out.length_m = scale * solution.parameters[LeafModel::at_length()];
   out.length_sigma_m = scale * std::sqrt(factor * solution.covariance(0, 0));
   out.direction = shape.direction_free ? solution.parameters[model.at_direction()] : shape.direction;
   out.direction -= 2 * pi * std::round(out.direction / (2 * pi));
-  out.direction_sigma = shape.direction_free ? std::sqrt(factor * solution.covariance(model.at_direction(), model.at_direction())) : nan;
+  out.direction_sigma =
+      shape.direction_free
+          ? std::sqrt(factor * solution.covariance(model.at_direction(), model.at_direction()))
+          : nan;
   out.base_m = scale * shape.base;
   for (std::size_t i = 0; i < shape.base_axes.size(); ++i) {
     const int at_i = model.at_base() + static_cast<int>(i);
@@ -121,7 +128,8 @@ void set_result(const LeafProblem& problem, const LeafTrial& trial, OrganFit& ou
   const auto keep = [&](FunctionRole role, const FunctionBasis& basis, int at, double unit) {
     if (basis.size() == 0) return;
     FittedFunction function = fitted_function(basis, solution, at, unit, factor);
-    function.aicc = corrected_akaike(solution.chi2, solution.residuals, static_cast<int>(solution.parameters.size()), problem.errors_known, 1);
+    function.aicc = corrected_akaike(solution.chi2, solution.residuals,
+                                     static_cast<int>(solution.parameters.size()), problem.errors_known, 1);
     for (const auto& [choice, aicc] : out.aicc_table[role_name(role)])
       if (choice == function.choice) function.aicc = aicc;
     out.functions.emplace(role_name(role), std::move(function));
@@ -154,7 +162,9 @@ void fit_known_good(const MeasuredOrgan& organ, const FitOptions& options, Organ
   std::optional<LeafProblem> problem = leaf_problem(organ, options, out.failure);
   if (!problem) return;
   const int midrib_numbers = numbers_that_count(problem->midrib);
-  const auto count = [&](FunctionChoice i, FunctionChoice a) { return LeafModel(leaf_shape(*problem, i, a, {}, {})).parameters(); };
+  const auto count = [&](FunctionChoice i, FunctionChoice a) {
+    return LeafModel(leaf_shape(*problem, i, a, {}, {})).parameters();
+  };
   const bool has_azimuth = !problem->planar;
   FunctionChoice azimuth = options.functions.azimuth.value_or(FunctionChoice{'p', has_azimuth ? 2 : 0});
   FunctionChoice inclination = options.functions.inclination.value_or(FunctionChoice{'p', 3});
@@ -170,18 +180,22 @@ void fit_known_good(const MeasuredOrgan& organ, const FitOptions& options, Organ
     return solve_midrib(*problem, i, a);
   };
   if (!options.functions.inclination) {
-    const auto best = choose(function_candidates(FunctionRole::inclination), midrib_numbers, problem->errors_known,
-                             [&](FunctionChoice c, int) { return midrib_candidate(c, azimuth); }, out.aicc_table["inclination"]);
+    const auto best = choose(
+        function_candidates(FunctionRole::inclination), midrib_numbers, problem->errors_known,
+        [&](FunctionChoice c, int) { return midrib_candidate(c, azimuth); }, out.aicc_table["inclination"]);
     if (best) inclination = *best;
   } else if (!(inclination == asked_inclination)) {
-    out.notes.push_back(fmt::format("too few points for inclination {}: {} fitted", asked_inclination.str(), inclination.str()));
+    out.notes.push_back(fmt::format("too few points for inclination {}: {} fitted", asked_inclination.str(),
+                                    inclination.str()));
   }
   if (has_azimuth && !options.functions.azimuth) {
-    const auto best = choose(function_candidates(FunctionRole::azimuth), midrib_numbers, problem->errors_known,
-                             [&](FunctionChoice c, int) { return midrib_candidate(inclination, c); }, out.aicc_table["azimuth"]);
+    const auto best = choose(
+        function_candidates(FunctionRole::azimuth), midrib_numbers, problem->errors_known,
+        [&](FunctionChoice c, int) { return midrib_candidate(inclination, c); }, out.aicc_table["azimuth"]);
     if (best) azimuth = *best;
   } else if (!(azimuth == asked_azimuth)) {
-    out.notes.push_back(fmt::format("too few points for azimuth {}: {} fitted", asked_azimuth.str(), azimuth.str()));
+    out.notes.push_back(
+        fmt::format("too few points for azimuth {}: {} fitted", asked_azimuth.str(), azimuth.str()));
   }
   LeafTrial trial = solve_midrib(*problem, inclination, azimuth);
   if (!trial.usable()) {
@@ -191,24 +205,30 @@ void fit_known_good(const MeasuredOrgan& organ, const FitOptions& options, Organ
   if (!problem->edges.empty()) {
     EdgeStart edges;
     out.edges_swapped = edge_start(*problem, trial.model, edges.l, edges.twist, edges.width);
-    if (out.edges_swapped) out.notes.push_back("the edges were labelled the other way round: left and right exchanged");
+    if (out.edges_swapped)
+      out.notes.push_back(
+          "by the edges' labels the upper face looked away from the stem at the base: left and right "
+          "exchanged");
     const int numbers = midrib_numbers + numbers_that_count(problem->edges);
     const LeafTrial midrib = trial;
     const auto surface = [&](FunctionChoice t, FunctionChoice w) -> std::optional<LeafTrial> {
-      const int parameters = midrib.model.parameters() + FunctionBasis(t, true).size() + FunctionBasis(w, true).size();
+      const int parameters =
+          midrib.model.parameters() + FunctionBasis(t, true).size() + FunctionBasis(w, true).size();
       if (parameters >= numbers) return std::nullopt;
       return solve_surface(*problem, midrib, edges, t, w);
     };
     FunctionChoice twist = options.functions.twist.value_or(FunctionChoice{'p', 1});
     FunctionChoice width = options.functions.width.value_or(FunctionChoice{'p', 3});
     if (!options.functions.width) {
-      const auto best = choose(function_candidates(FunctionRole::width), numbers, problem->errors_known,
-                               [&](FunctionChoice c, int) { return surface(twist, c); }, out.aicc_table["width"]);
+      const auto best = choose(
+          function_candidates(FunctionRole::width), numbers, problem->errors_known,
+          [&](FunctionChoice c, int) { return surface(twist, c); }, out.aicc_table["width"]);
       if (best) width = *best;
     }
     if (!options.functions.twist) {
-      const auto best = choose(function_candidates(FunctionRole::twist), numbers, problem->errors_known,
-                               [&](FunctionChoice c, int) { return surface(c, width); }, out.aicc_table["twist"]);
+      const auto best = choose(
+          function_candidates(FunctionRole::twist), numbers, problem->errors_known,
+          [&](FunctionChoice c, int) { return surface(c, width); }, out.aicc_table["twist"]);
       if (best) twist = *best;
     }
     std::optional<LeafTrial> joint = surface(twist, width);

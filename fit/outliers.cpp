@@ -33,8 +33,11 @@ std::vector<int> remove_outliers(MeasuredOrgan& organ, const FitOptions& options
   if (!problem || !problem->errors_known) return {};
   LeafTrial trial = solve_midrib(*problem, rich_inclination, rich_azimuth);
   double variance = robust_variance(trial.solution, problem->midrib);
-  const auto far = [&](std::size_t k) { return problem->midrib[k].place_free && trial.solution.distance2[k] > limit2 * variance; };
-  // A bad point bends the plain fit and blows up its scatter: whether to look closer is asked of the stated errors.
+  const auto far = [&](std::size_t k) {
+    return problem->midrib[k].place_free && trial.solution.distance2[k] > limit2 * variance;
+  };
+  // A bad point bends the plain fit and blows up its scatter: whether to look closer is asked of the stated
+  // errors.
   const std::vector<double>& distance2 = trial.solution.distance2;
   if (!trial.solution.converged || *std::max_element(distance2.begin(), distance2.end()) < limit2) return {};
   // Cauchy's weights, their scale from the median: the far points let go of the curve.
@@ -51,8 +54,10 @@ std::vector<int> remove_outliers(MeasuredOrgan& organ, const FitOptions& options
   std::vector<int> out;
   std::vector<VectorPoint> kept;
   for (std::size_t k = 0; k < organ.midrib.size(); ++k) {
-    if (far(k)) out.push_back(organ.midrib[k].point);
-    else kept.push_back(organ.midrib[k]);
+    if (far(k))
+      out.push_back(organ.midrib[k].point);
+    else
+      kept.push_back(organ.midrib[k]);
   }
   // When much of the leaf is "wrong", the function is, or the errors are: nothing is thrown away.
   if (out.size() * 5 > organ.midrib.size()) return {};

@@ -41,11 +41,52 @@ OrganAttributes attributes_of(const OrganFit& fit, const AssemblyOptions& option
   return out;
 }
 
-Symbol symbol(Symbol::Type type) {
-  Symbol out;
-  out.type = type;
-  return out;
-}
+// Writes the word and its blocks from left to right.
+class PlantWriter {
+ public:
+  explicit PlantWriter(Plant& plant) : plant_(plant) {}
+  void open() { plant_.word.emplace_back().type = Symbol::Type::open; }
+  void close() { plant_.word.emplace_back().type = Symbol::Type::close; }
+  void organ(OrganKind kind, OrganAttributes attributes) {
+    Block& block = plant_.blocks.emplace_back();
+    block.kind = kind;
+    block.number = ++count_[kind];
+    block.attributes = std::move(attributes);
+    Symbol& symbol = plant_.word.emplace_back();
+    symbol.type = Symbol::Type::organ;
+    symbol.kind = kind;
+    symbol.ordinal = count_[kind];
+    symbol.block = static_cast<int>(plant_.blocks.size()) - 1;
+  }
+  void turn(double inclination, double twist) {
+    OrganAttributes attributes;
+    attributes.inclination = inclination;
+    attributes.twist = twist;
+    organ(OrganKind::rotation, std::move(attributes));
+  }
+  // Moves on by `offset_m` without turning in the end: out to its direction, along a bare stem, back again.
+  void move(const Eigen::Vector3d& offset_m) {
+    const double direction = std::atan2(offset_m.y(), offset_m.x());
+    const double inclination = std::atan2(std::hypot(offset_m.x(), offset_m.y()), offset_m.z());
+    turn(0, direction);
+    turn(inclination, 0);
+    OrganAttributes stem;
+    stem.length_m = offset_m.norm();
+    organ(OrganKind::stem, std::move(stem));
+    turn(-inclination, 0);
+    turn(0, -direction);
+  }
+
+  int next_id() const {
+    int out = 0;
+    for (const auto& [kind, count] : count_) out += kind == OrganKind::rotation ? 0 : count;
+    return out;
+  }
+
+ private:
+  Plant& plant_;
+  std::map<OrganKind, int> count_;
+};
 
 }  // namespace
 
@@ -64,32 +105,22 @@ FittedPlant assemble_plant(const std::string& name, const std::vector<OrganFit>&
     if (fit.measured.organ == "stem" && (foot == nullptr || fit.base_m.z() < foot->base_m.z())) foot = &fit;
   }
   if (out.organs.empty()) return out;
-  out.origin_m = foot != nullptr ? foot->base_m : Eigen::Vector3d(sum / static_cast<double>(out.organs.size()));
+  const Eigen::Vector3d mean = sum / static_cast<double>(out.organs.size());
+  out.origin_m = foot != nullptr ? foot->base_m : options.bud_m.value_or(mean);
 
-  int rotations = 0;
-  std::map<OrganKind, int> count;
-  const auto add_organ = [&](OrganKind kind, OrganAttributes attributes) {
-    Symbol s = symbol(Symbol::Type::organ);
-    s.kind = kind;
-    s.ordinal = kind == OrganKind::rotation ? ++rotations : ++count[kind];
-    s.block = static_cast<int>(out.plant.blocks.size());
-    Block block;
-    block.kind = kind;
-    block.number = s.ordinal;
-    block.attributes = std::move(attributes);
-    out.plant.word.push_back(s);
-    out.plant.blocks.push_back(std::move(block));
-  };
-  out.plant.word.push_back(symbol(Symbol::Type::open));
+  constexpr double no_offset_m = 1e-9;
+  PlantWriter writer(out.plant);
+  writer.open();
   for (const std::size_t k : out.organs) {
-    out.plant.word.push_back(symbol(Symbol::Type::open));
-    OrganAttributes turn;
-    turn.twist = fits[k].direction;
-    add_organ(OrganKind::rotation, std::move(turn));
-    add_organ(kind_of(fits[k].measured.organ), attributes_of(fits[k], options));
-    out.plant.word.push_back(symbol(Symbol::Type::close));
+    const Eigen::Vector3d offset = fits[k].base_m - out.origin_m;
+    writer.open();
+    if (options.measured_bases && offset.norm() > no_offset_m) writer.move(offset);
+    writer.turn(0, fits[k].direction);
+    out.ids.push_back(writer.next_id());
+    writer.organ(kind_of(fits[k].measured.organ), attributes_of(fits[k], options));
+    writer.close();
   }
-  out.plant.word.push_back(symbol(Symbol::Type::close));
+  writer.close();
   return out;
 }
 

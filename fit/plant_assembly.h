@@ -1,7 +1,8 @@
 // Fitted organs put together to a plant.
-// The axes that were measured start at one common base, the plant's origin: the foot of the lowest stem, or where no
-// stem was digitised the mean of the leaves' bases. How far each organ's own base lies from it is reported, not lost.
-// A leaf stands behind a rotation + with its direction around the stem as a_twist.
+// All start at one common base, the plant's origin: the foot of the lowest stem, else the bud, else the mean
+// of the leaves' bases. How far each organ's own base lies from it is reported, not lost; on request it is
+// kept in the plant too, by a stem without surface from the origin to the base. An organ stands behind a
+// rotation + with its direction around the stem as a_twist.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,12 +14,15 @@ namespace bpms {
 struct FittedPlant {
   Plant plant;
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  // the common base in the frame of the measurements
-  std::vector<std::size_t> organs;                     // of `fits`, in order of the plant's organ ids
+  std::vector<std::size_t> organs;                     // those of `fits` that are in the plant
+  std::vector<int> ids;                                // their organ ids in the plant
 };
 
 struct AssemblyOptions {
   std::string unit = "cm";  // of the text
   double width_m = 0;       // of leaves without edges; 0: they get no width
+  std::optional<Eigen::Vector3d> bud_m;
+  bool measured_bases = false;  // organs where they were measured, not all at the common base
 };
 
 // One plant of those fits (indices into `fits`) that succeeded.

@@ -59,7 +59,8 @@ class Columns {
   std::map<std::string, std::vector<int>, std::less<>> index_;
 };
 
-std::vector<VectorPoint>& points_of(MeasuredOrgan& organ, const std::string& feature, const SourceLocation& where) {
+std::vector<VectorPoint>& points_of(MeasuredOrgan& organ, const std::string& feature,
+                                    const SourceLocation& where) {
   if (feature == "midrib" || feature == "axis") return organ.midrib;
   if (feature == "edge_left") return organ.edge_left;
   if (feature == "edge_right") return organ.edge_right;
@@ -73,18 +74,22 @@ PolylineColumns parse_polyline_columns(std::string_view text) {
   for (const std::string& part : split(text, ',')) {
     const std::size_t equal = part.find('=');
     if (equal == std::string::npos || equal == 0 || equal + 1 == part.size())
-      bad_input({}, "found {} in --columns, expected ROLE=COLUMN as in \"leaf=variety+number,x=x,z=y\"", in_quotes(part));
+      bad_input({}, "found {} in --columns, expected ROLE=COLUMN as in \"leaf=variety+number,x=x,z=y\"",
+                in_quotes(part));
     const std::string role = part.substr(0, equal);
     if (std::find(roles().begin(), roles().end(), role) == roles().end())
       bad_input({}, "unknown role {} in --columns{}", in_quotes(role), did_you_mean(role, roles()));
     if (out.contains(role)) bad_input({}, "role {} stands twice in --columns", in_quotes(role));
-    std::vector<std::string> names = role == "leaf" ? split(part.substr(equal + 1), '+') : std::vector{part.substr(equal + 1)};
+    std::vector<std::string> names =
+        role == "leaf" ? split(part.substr(equal + 1), '+') : std::vector{part.substr(equal + 1)};
     for (const std::string& name : names)
-      if (name.empty()) bad_input({}, "found {} in --columns, expected a column name on each side of '+'", in_quotes(part));
+      if (name.empty())
+        bad_input({}, "found {} in --columns, expected a column name on each side of '+'", in_quotes(part));
     out[role] = std::move(names);
   }
   for (const char* needed : {"leaf", "x", "z"})
-    if (!out.contains(needed)) bad_input({}, "--columns does not say which column is '{}': add {}=COLUMN", needed, needed);
+    if (!out.contains(needed))
+      bad_input({}, "--columns does not say which column is '{}': add {}=COLUMN", needed, needed);
   return out;
 }
 
@@ -106,7 +111,8 @@ std::vector<MeasuredOrgan> read_polylines(const std::string& path, const Polylin
       organ.axis = columns.text("axis", row, "");
       organ.organ = columns.text("organ", row, "leaf");
       if (organ.organ != "leaf" && organ.organ != "stem" && organ.organ != "head")
-        bad_input(table.where(row, columns.column("organ")), "found organ {}, expected leaf, stem or head", in_quotes(organ.organ));
+        bad_input(table.where(row, columns.column("organ")), "found organ {}, expected leaf, stem or head",
+                  in_quotes(organ.organ));
       const int ordinal = ++leaves_of_plant[plant];
       organ.rank = columns.has("rank") ? columns.integer("rank", row) : ordinal;
       organ.key = (columns.has("plant") ? plant + " " : "") + key;
@@ -116,15 +122,20 @@ std::vector<MeasuredOrgan> read_polylines(const std::string& path, const Polylin
     MeasuredOrgan& organ = out[at->second];
     const std::string feature = columns.text("feature", row, "midrib");
     const SourceLocation where = table.where(row, columns.column("x"));
-    std::vector<VectorPoint>& points = points_of(organ, feature, columns.has("feature") ? table.where(row, columns.column("feature")) : where);
+    std::vector<VectorPoint>& points = points_of(
+        organ, feature, columns.has("feature") ? table.where(row, columns.column("feature")) : where);
     VectorPoint point;
     point.label = {plant, organ.axis, organ.rank, organ.organ, feature};
     point.where = where;
     point.point = columns.has("point") ? columns.integer("point", row) : static_cast<int>(points.size()) + 1;
-    point.x_m = metres_per_unit * Eigen::Vector3d(columns.number("x", row), planar ? 0.0 : columns.number("y", row), columns.number("z", row));
+    point.x_m =
+        metres_per_unit * Eigen::Vector3d(columns.number("x", row), planar ? 0.0 : columns.number("y", row),
+                                          columns.number("z", row));
     if (columns.has("sigma")) {
       const double sigma = metres_per_unit * columns.number("sigma", row);
-      if (sigma <= 0) bad_input(table.where(row, columns.column("sigma")), "found a sigma of {}, expected one above 0", sigma);
+      if (sigma <= 0)
+        bad_input(table.where(row, columns.column("sigma")), "found a sigma of {}, expected one above 0",
+                  sigma);
       point.covariance_m2 = sigma * sigma * Eigen::Matrix3d::Identity();
     }
     points.push_back(std::move(point));
@@ -132,7 +143,8 @@ std::vector<MeasuredOrgan> read_polylines(const std::string& path, const Polylin
   if (out.empty()) bad_input({path}, "no points after the header");
   for (MeasuredOrgan& organ : out) {
     for (auto* list : {&organ.midrib, &organ.edge_left, &organ.edge_right})
-      std::stable_sort(list->begin(), list->end(), [](const auto& a, const auto& b) { return a.point < b.point; });
+      std::stable_sort(list->begin(), list->end(),
+                       [](const auto& a, const auto& b) { return a.point < b.point; });
   }
   return out;
 }

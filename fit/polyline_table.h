@@ -1,8 +1,9 @@
 // Other people's tables of measured polylines: which column means what is said on the command line,
 //   leaf=variety+inerv,x=x,z=y
-// `leaf` names the columns whose joint value tells leaves apart; x and z (z up) are needed; without y the midribs are
-// planar (x outward). Optional: plant, axis, rank, organ, feature, point (order; else that of the file), sigma (of each
-// coordinate, in the same unit). Columns that are not mapped are left alone. Without `plant` all leaves are one plant's.
+// `leaf` names the columns whose joint value tells leaves apart; x and z (z up) are needed; without y the
+// midribs are planar (x outward). Optional: plant, axis, rank, organ, feature, point (order; else that of the
+// file), sigma (of each coordinate, in the same unit). Columns that are not mapped are left alone. Without
+// `plant` all leaves are one plant's.
 #pragma once
 #include <map>
 #include <string>

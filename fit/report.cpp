@@ -1,5 +1,6 @@
 #include "fit/report.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +9,9 @@
 namespace bpms {
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json points(const std::vector<Eigen::Vector3d>& list) {
   Json out = Json::array();
@@ -18,7 +21,8 @@ Json points(const std::vector<Eigen::Vector3d>& list) {
 
 Json function(const FittedFunction& f, bool angle) {
   const double unit = angle ? degrees(1) : 1.0;
-  Json coefficients = Json::array(), sigma = Json::array(), l = Json::array(), value = Json::array(), band = Json::array();
+  Json coefficients = Json::array(), sigma = Json::array(), l = Json::array(), value = Json::array(),
+       band = Json::array();
   for (Eigen::Index k = 0; k < f.coefficients.size(); ++k) {
     coefficients.push_back(number(unit * f.coefficients[k]));
     sigma.push_back(number(unit * std::sqrt(f.covariance(k, k))));
@@ -30,19 +34,50 @@ Json function(const FittedFunction& f, bool angle) {
     value.push_back(number(unit * f.value(at)));
     band.push_back(number(unit * f.sigma(at)));
   }
-  return {{"kind", std::string(1, f.choice.code)}, {"order", f.choice.order}, {"unit", angle ? "degree" : "m"},
-          {"coefficients", coefficients}, {"sigma", sigma}, {"aicc", number(f.aicc)},
+  return {{"kind", std::string(1, f.choice.code)},
+          {"order", f.choice.order},
+          {"unit", angle ? "deg" : "m"},
+          {"coefficients", coefficients},
+          {"sigma", sigma},
+          {"aicc", number(f.aicc)},
           {"curve", {{"l", l}, {"value", value}, {"sigma", band}}}};
 }
 
 Json aicc_table(const OrganFit& fit) {
-  Json out = Json::object();
+  Json out = Json::array();
   for (const auto& [name, rows] : fit.aicc_table) {
-    Json table = Json::array();
     for (const auto& [choice, aicc] : rows)
-      table.push_back({{"kind", std::string(1, choice.code)}, {"order", choice.order}, {"aicc", number(aicc)}});
-    if (!table.empty()) out[name] = table;
+      out.push_back({{"function", name},
+                     {"kind", std::string(1, choice.code)},
+                     {"order", choice.order},
+                     {"aicc", number(aicc)}});
   }
+  return out;
+}
+
+// Angles of the polyline's pieces in the leaf's frame: what the integrated functions stand beside, not what
+// was fitted.
+Json measured(const OrganFit& fit) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(fit.direction, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  double length = 0;
+  for (std::size_t k = 1; k < fit.points_m.size(); ++k)
+    length += (fit.points_m[k] - fit.points_m[k - 1]).norm();
+  Json l = Json::array(), inclination = Json::array(), azimuth = Json::array();
+  double arc = 0, before = 0;
+  for (std::size_t k = 1; k < fit.points_m.size(); ++k) {
+    const Eigen::Vector3d step = turn.transpose() * (fit.points_m[k] - fit.points_m[k - 1]);
+    const double piece = step.norm();
+    if (piece <= 0) continue;
+    double angle = std::atan2(step.x(), step.z());
+    angle -= 2 * pi * std::round((angle - before) / (2 * pi));
+    before = angle;
+    l.push_back((arc + piece / 2) / length);
+    inclination.push_back(degrees(angle));
+    azimuth.push_back(degrees(std::asin(std::clamp(-step.y() / piece, -1.0, 1.0))));
+    arc += piece;
+  }
+  Json out{{"l", l}, {"inclination", inclination}};
+  if (fit.functions.contains("azimuth")) out["azimuth"] = azimuth;
   return out;
 }
 
@@ -56,10 +91,16 @@ double quantile(std::vector<double> values, double q) {
 }
 
 Json organ(const OrganFit& fit) {
-  Json out{{"id", nullptr}, {"plant", fit.measured.plant}, {"axis", fit.measured.axis}, {"rank", fit.measured.rank},
-           {"organ", fit.measured.organ}, {"key", fit.measured.key}, {"points", fit.measured.midrib.size()}};
+  Json out{{"id", nullptr},
+           {"plant", fit.measured.plant},
+           {"axis", fit.measured.axis},
+           {"rank", fit.measured.rank},
+           {"organ", fit.measured.organ},
+           {"key", fit.measured.key},
+           {"points", fit.measured.midrib.size()}};
   if (!fit.ok()) {
-    for (const char* key : {"length_m", "length_sigma_m", "rms_m", "rms_fraction", "chi2_per_dof"}) out[key] = nullptr;
+    for (const char* key : {"length_m", "length_sigma_m", "rms_m", "rms_fraction", "chi2_per_dof"})
+      out[key] = nullptr;
     out["functions"] = Json::object();
     out["failure"] = fit.failure;
     out["points_m"] = points(fit.points_m);
@@ -75,7 +116,8 @@ Json organ(const OrganFit& fit) {
   out["direction_deg"] = number(degrees(fit.direction));
   out["direction_sigma_deg"] = number(degrees(fit.direction_sigma));
   out["base_m"] = {number(fit.base_m.x()), number(fit.base_m.y()), number(fit.base_m.z())};
-  out["base_sigma_m"] = {number(std::sqrt(fit.base_covariance_m2(0, 0))), number(std::sqrt(fit.base_covariance_m2(1, 1))),
+  out["base_sigma_m"] = {number(std::sqrt(fit.base_covariance_m2(0, 0))),
+                         number(std::sqrt(fit.base_covariance_m2(1, 1))),
                          number(std::sqrt(fit.base_covariance_m2(2, 2)))};
   out["width_m"] = number(fit.width_m);
   out["width_sigma_m"] = number(fit.width_sigma_m);
@@ -86,6 +128,7 @@ Json organ(const OrganFit& fit) {
   for (const auto& [name, f] : fit.functions) functions[name] = function(f, name != "width");
   out["functions"] = functions;
   out["aicc_table"] = aicc_table(fit);
+  out["measured"] = measured(fit);
   out["points_m"] = points(fit.points_m);
   out["fitted_m"] = points(fit.fitted_m);
   return out;
@@ -93,28 +136,31 @@ Json organ(const OrganFit& fit) {
 
 }  // namespace
 
+Json fit_summary(const std::vector<OrganFit>& fits) {
+  std::vector<double> fractions;
+  for (const OrganFit& fit : fits)
+    if (fit.ok()) fractions.push_back(fit.rms_m / fit.length_m);
+  return {{"organs", fits.size()},
+          {"rms_fraction_median", number(quantile(fractions, 0.5))},
+          {"rms_fraction_p90", number(quantile(fractions, 0.9))},
+          {"failed", fits.size() - fractions.size()}};
+}
+
 Json fit_report(const std::vector<OrganFit>& fits, const std::vector<FittedPlant>& plants) {
   Json organs = Json::array(), plant_list = Json::array();
-  std::vector<double> fractions;
-  int failed = 0;
-  for (const OrganFit& fit : fits) {
-    organs.push_back(organ(fit));
-    if (fit.ok()) fractions.push_back(fit.rms_m / fit.length_m);
-    else ++failed;
-  }
+  for (const OrganFit& fit : fits) organs.push_back(organ(fit));
   for (const FittedPlant& plant : plants) {
-    plant_list.push_back({{"name", plant.plant.name}, {"organs", plant.organs.size()},
+    plant_list.push_back({{"name", plant.plant.name},
+                          {"organs", plant.organs.size()},
                           {"origin_m", {plant.origin_m.x(), plant.origin_m.y(), plant.origin_m.z()}}});
-    for (std::size_t id = 0; id < plant.organs.size(); ++id) {
-      Json& entry = organs[plant.organs[id]];
-      entry["id"] = id;
-      const Eigen::Vector3d offset = fits[plant.organs[id]].base_m - plant.origin_m;
+    for (std::size_t k = 0; k < plant.organs.size(); ++k) {
+      Json& entry = organs[plant.organs[k]];
+      entry["id"] = plant.ids[k];
+      const Eigen::Vector3d offset = fits[plant.organs[k]].base_m - plant.origin_m;
       entry["base_offset_m"] = {offset.x(), offset.y(), offset.z()};
     }
   }
-  return {{"organs", organs}, {"plants", plant_list},
-          {"summary", {{"organs", fits.size()}, {"rms_fraction_median", number(quantile(fractions, 0.5))},
-                       {"rms_fraction_p90", number(quantile(fractions, 0.9))}, {"failed", failed}}}};
+  return {{"organs", organs}, {"plants", plant_list}, {"summary", fit_summary(fits)}};
 }
 
 }  // namespace bpms

@@ -5,6 +5,7 @@
 
 namespace bpms {
 
+Json fit_summary(const std::vector<OrganFit>& fits);
 // `plants` say which organ of which plant each fit became.
 Json fit_report(const std::vector<OrganFit>& fits, const std::vector<FittedPlant>& plants);
 

@@ -19,8 +19,8 @@ std::vector<double> uneven_places(int count, bool with_ends, Philox& random) {
   return out;
 }
 
-VectorPoint noisy(const Eigen::Vector3d& truth, const SyntheticNoise& noise, int number, const std::string& feature,
-                  Philox& random) {
+VectorPoint noisy(const Eigen::Vector3d& truth, const SyntheticNoise& noise, int number,
+                  const std::string& feature, Philox& random) {
   VectorPoint out;
   out.label = {"1", "1", 1, "leaf", feature};
   out.point = number;
@@ -29,7 +29,8 @@ VectorPoint noisy(const Eigen::Vector3d& truth, const SyntheticNoise& noise, int
   sight.normalize();
   const double across = noise.sigma_m > 0 ? noise.sigma_m : noise.stated_m;
   const Eigen::Matrix3d covariance =
-      across * across * (Eigen::Matrix3d::Identity() + (noise.depth_ratio * noise.depth_ratio - 1) * sight * sight.transpose());
+      across * across *
+      (Eigen::Matrix3d::Identity() + (noise.depth_ratio * noise.depth_ratio - 1) * sight * sight.transpose());
   out.covariance_m2 = noise.stated_ratio * noise.stated_ratio * covariance;
   out.x_m = truth;
   if (noise.sigma_m > 0) {

@@ -19,23 +19,35 @@ namespace bpms {
 namespace {
 
 struct Arguments {
-  std::string input, function = "auto", columns, unit, dialect, width;
+  std::string input, function = "auto", columns, unit, dialect, width, bases = "common";
   bool anchor_base = false;
 };
 
-std::vector<MeasuredOrgan> read_organs(const Arguments& arguments) {
+struct Measured {
+  std::vector<MeasuredOrgan> organs;
+  std::map<std::string, Eigen::Vector3d> buds;  // of the plants that have one
+};
+
+Measured read_organs(const Arguments& arguments) {
   if (!arguments.columns.empty()) {
     const PolylineColumns columns = parse_polyline_columns(arguments.columns);
-    if (arguments.unit.empty()) bad_input({}, "--columns needs --unit: the unit of the coordinates (m, cm, mm, ...)");
-    return read_polylines(arguments.input, columns, metres_per_unit(arguments.unit, {}),
-                          csv_dialect(arguments.dialect.empty() ? "en" : arguments.dialect));
+    if (arguments.unit.empty())
+      bad_input({}, "--columns needs --unit: the unit of the coordinates (m, cm, mm, ...)");
+    return {read_polylines(arguments.input, columns, metres_per_unit(arguments.unit, {}),
+                           csv_dialect(arguments.dialect.empty() ? "en" : arguments.dialect)),
+            {}};
   }
   if (!arguments.unit.empty()) bad_input({}, "--unit goes with --columns; vectors.csv is in metres");
-  if (!arguments.dialect.empty()) bad_input({}, "--dialect goes with --columns; vectors.csv has commas and points");
+  if (!arguments.dialect.empty())
+    bad_input({}, "--dialect goes with --columns; vectors.csv has commas and points");
+  const std::vector<VectorPoint> points = read_vectors(arguments.input);
   std::vector<std::string> notes;
-  std::vector<MeasuredOrgan> out = group_organs(read_vectors(arguments.input), notes);
+  Measured out{group_organs(points, notes), {}};
   for (const std::string& line : notes) note(line);
-  if (out.empty()) bad_input({arguments.input}, "no leaf, stem or head among the vectors");
+  if (out.organs.empty()) bad_input({arguments.input}, "no leaf, stem or head among the vectors");
+  for (const MeasuredOrgan& organ : out.organs) {
+    if (const auto bud = bud_of_plant(points, organ.plant)) out.buds[organ.plant] = *bud;
+  }
   return out;
 }
 
@@ -43,26 +55,30 @@ std::vector<MeasuredOrgan> read_organs(const Arguments& arguments) {
 std::string file_stem(const std::string& name) {
   std::string out;
   for (const char c : name) {
-    const bool safe = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-                      (c == '.' && !out.empty());
+    const bool safe = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                      c == '-' || c == '_' || (c == '.' && !out.empty());
     out += safe ? c : '_';
   }
   return out.empty() ? "plant" : out;
 }
 
-void write_plants(const std::string& output, bool overwrite, const std::vector<FittedPlant>& plants) {
-  if (plants.size() == 1) {
+void write_plants(const std::string& output, bool overwrite, bool to_folder,
+                  const std::vector<FittedPlant>& plants) {
+  if (!to_folder) {
     write_file(output, plant_text(plants[0].plant), overwrite);
     return;
   }
   std::error_code code;
   std::filesystem::create_directories(output, code);
-  if (code) throw Error(ErrorKind::missing_resource, {output}, "the folder cannot be made: " + code.message());
+  if (code)
+    throw Error(ErrorKind::missing_resource, {output}, "the folder cannot be made: " + code.message());
   std::set<std::string> used;
   for (const FittedPlant& plant : plants) {
     std::string stem = file_stem(plant.plant.name);
-    for (int k = 2; !used.insert(stem).second; ++k) stem = fmt::format("{}_{}", file_stem(plant.plant.name), k);
-    write_file((std::filesystem::path(output) / (stem + ".bpms")).string(), plant_text(plant.plant), overwrite);
+    for (int k = 2; !used.insert(stem).second; ++k)
+      stem = fmt::format("{}_{}", file_stem(plant.plant.name), k);
+    write_file((std::filesystem::path(output) / (stem + ".bpms")).string(), plant_text(plant.plant),
+               overwrite);
   }
 }
 
@@ -72,8 +88,12 @@ void run(const Cli& cli, const Arguments& arguments) {
   options.functions = parse_function_request(arguments.function);
   options.anchor_base = arguments.anchor_base;
   AssemblyOptions assembly;
+  if (arguments.bases != "common" && arguments.bases != "measured")
+    bad_input({}, "found --bases {}, expected common or measured", in_quotes(arguments.bases));
+  assembly.measured_bases = arguments.bases == "measured";
   if (!arguments.width.empty()) assembly.width_m = parse_length(arguments.width, {});
-  const std::vector<MeasuredOrgan> organs = read_organs(arguments);
+  const Measured measured = read_organs(arguments);
+  const std::vector<MeasuredOrgan>& organs = measured.organs;
 
   std::vector<std::string> names;  // plants in order of appearance
   std::map<std::string, std::vector<std::size_t>> members;
@@ -91,20 +111,27 @@ void run(const Cli& cli, const Arguments& arguments) {
   }
   std::vector<FittedPlant> plants;
   for (const std::string& name : names) {
+    const auto bud = measured.buds.find(name);
+    assembly.bud_m = bud == measured.buds.end() ? std::nullopt : std::optional(bud->second);
     FittedPlant plant = assemble_plant(name, fits, members[name], assembly);
     if (!plant.organs.empty()) plants.push_back(std::move(plant));
   }
-  if (plants.empty()) bad_input({arguments.input}, "none of the {} organs could be fitted; the first, {}: {}", fits.size(), fits[0].measured.str(), fits[0].failure);
-  Json report = fit_report(fits, plants);
-  report["input"] = arguments.input;
-  report["function"] = arguments.function;
-  write_plants(output, cli.common.overwrite, plants);
-  Provenance source = provenance(cli);
-  source.add_input(arguments.input);
-  const Json summary = report["summary"];
-  deliver_report(cli, "fit", std::move(report), source);
-  note(fmt::format("{} organs fitted, {} failed; rms in parts of the length: median {:.3g} %", fits.size() - summary["failed"].get<std::size_t>(),
-                   summary["failed"].get<std::size_t>(), 100 * summary["rms_fraction_median"].get<double>()));
+  if (plants.empty())
+    bad_input({arguments.input}, "none of the {} organs could be fitted; the first, {}: {}", fits.size(),
+              fits[0].measured.str(), fits[0].failure);
+  write_plants(output, cli.common.overwrite, names.size() > 1, plants);
+  if (cli.common.json || !cli.common.report.empty()) {
+    Json report = fit_report(fits, plants);
+    report["input"] = arguments.input;
+    report["function"] = arguments.function;
+    Provenance source = provenance(cli);
+    source.add_input(arguments.input);
+    deliver_report(cli, "fit", std::move(report), source);
+  }
+  const Json summary = fit_summary(fits);
+  note(fmt::format("{} of {} organs fitted; rms in parts of the length: median {:.3g} %",
+                   fits.size() - summary["failed"].get<std::size_t>(), fits.size(),
+                   100 * summary["rms_fraction_median"].get<double>()));
 }
 
 }  // namespace
@@ -113,15 +140,25 @@ void add_fit(Cli& cli) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* verb = add_verb(cli, "fit", "organ functions from measured polylines: a plant",
                             "bpms fit vectors.csv -o plant.bpms --report fit.json\n"
-                            "  bpms fit leaves.csv --columns \"leaf=variety+inerv,x=x,z=y\" --unit cm --function p:3 -o leaves.bpms",
+                            "  bpms fit leaves.csv --columns \"leaf=variety+inerv,x=x,z=y\" --unit cm "
+                            "--function p:3 -o leaves.bpms",
                             [&cli, arguments] { run(cli, *arguments); });
-  verb->add_option("vectors", arguments->input, "vectors.csv, or a table of polylines with --columns")->required();
-  verb->add_option("--function", arguments->function,
-                   "auto, n:KNOTS, p:DEGREE, f:HARMONICS, s:KNOTS for all functions, or NAME=CHOICE,... (default auto)");
-  verb->add_option("--columns", arguments->columns, "what the columns mean: leaf=A+B,x=X,z=Z[,y=,plant=,axis=,rank=,organ=,feature=,point=,sigma=]");
+  verb->add_option("vectors", arguments->input, "vectors.csv, or a table of polylines with --columns")
+      ->required();
+  verb->add_option(
+      "--function", arguments->function,
+      "auto, n:KNOTS, p:DEGREE, f:HARMONICS, s:KNOTS for all functions, or NAME=CHOICE,... (default auto)");
+  verb->add_option(
+      "--columns", arguments->columns,
+      "what the columns mean: leaf=A+B,x=X,z=Z[,y=,plant=,axis=,rank=,organ=,feature=,point=,sigma=]");
   verb->add_option("--unit", arguments->unit, "unit of the coordinates with --columns: m, cm, mm, ...");
-  verb->add_option("--dialect", arguments->dialect, "with --columns: en (comma, point) or fr (semicolon, decimal comma)");
-  verb->add_option("--width", arguments->width, "full width of leaves whose edges were not measured, as 1.2cm");
+  verb->add_option("--dialect", arguments->dialect,
+                   "with --columns: en (comma, point) or fr (semicolon, decimal comma)");
+  verb->add_option("--width", arguments->width,
+                   "full width of leaves whose edges were not measured, as 1.2cm");
+  verb->add_option("--bases", arguments->bases,
+                   "common: all organs start at one point (default); measured: where they were measured, "
+                   "behind stems without surface");
   verb->add_flag("--anchor-base", arguments->anchor_base, "midribs start exactly at their first point");
 }
 

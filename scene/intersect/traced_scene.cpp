@@ -27,11 +27,11 @@ TracedScene::TracedScene(const Scene& scene, const IntersectorOptions& options)
     box_.include(instance_bounds.back());
   }
   if (periodic_) {
-    margin_ = options.margin_m >= 0 ? options.margin_m : 0;
     // A hair more, so that no rounding opens a gap where a ray changes sides.
-    const double slack = 1e-5 * (size_.maxCoeff() + margin_);
-    complete_low_ = (-0.5 * size_).array() - margin_ - slack;
-    complete_high_ = (0.5 * size_).array() + margin_ + slack;
+    const double slack =
+        1e-5 * (size_.maxCoeff() + (box_.empty() ? 0 : std::abs(box_.low.z()) + std::abs(box_.high.z())));
+    complete_low_ = (-0.5 * size_).array() - slack;
+    complete_high_ = (0.5 * size_).array() + slack;
     box_.low.head<2>() = -0.5 * size_;
     box_.high.head<2>() = 0.5 * size_;
   }

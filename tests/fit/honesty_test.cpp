@@ -19,7 +19,7 @@ constexpr int leaves = 300;
 struct Statistics {
   double chi2 = 0, dof = 0;
   std::map<std::string, double> nees, coefficients;  // sums over leaves
-  std::map<std::string, int> inside, asked;          // of the bands at l = 0.1 .. 0.9 (one a leaf), and of the length
+  std::map<std::string, int> inside, asked;  // of the bands at l = 0.1 .. 0.9 (one a leaf), and of the length
 };
 
 Statistics run(const SyntheticNoise& noise) {
@@ -28,7 +28,8 @@ Statistics run(const SyntheticNoise& noise) {
   leaf.edge_points = 10;
   parallel_for(leaves, [&](std::size_t k) {
     Philox random(11, k);
-    fits[k] = fit_organ(measure(leaf, noise, random), exactly("inclination=p:2,azimuth=p:1,twist=p:1,width=p:2"));
+    fits[k] =
+        fit_organ(measure(leaf, noise, random), exactly("inclination=p:2,azimuth=p:1,twist=p:1,width=p:2"));
   });
   Statistics out;
   const std::map<std::string, std::pair<const OrganFunction*, double>> truth{
@@ -55,10 +56,12 @@ Statistics run(const SyntheticNoise& noise) {
       count(name, fitted.value(l) - function.second * function.first->value(l), fitted.sigma(l));
       Eigen::VectorXd error = fitted.coefficients;
       for (Eigen::Index i = 0; i < error.size(); ++i)
-        error[i] -= function.first->numbers()[static_cast<std::size_t>(i)] * (name == "width" ? leaf.organ.width_m : radians(1));
+        error[i] -= function.first->numbers()[static_cast<std::size_t>(i)] *
+                    (name == "width" ? leaf.organ.width_m : radians(1));
       // The azimuth's coefficients are bound by their zero mean: one less is free.
       const Eigen::Index free = name == "azimuth" ? error.size() - 1 : error.size();
-      out.nees[name] += error.tail(free).dot(fitted.covariance.bottomRightCorner(free, free).ldlt().solve(error.tail(free)));
+      out.nees[name] += error.tail(free).dot(
+          fitted.covariance.bottomRightCorner(free, free).ldlt().solve(error.tail(free)));
       out.coefficients[name] += static_cast<double>(free);
     }
   }
@@ -66,7 +69,9 @@ Statistics run(const SyntheticNoise& noise) {
 }
 
 // |x - mean| in standard deviations of a chi2 with n degrees of freedom.
-double chi2_distance(double chi2, double n) { return std::abs(chi2 - n) / std::sqrt(2 * n); }
+double chi2_distance(double chi2, double n) {
+  return std::abs(chi2 - n) / std::sqrt(2 * n);
+}
 
 TEST(Honesty, ChiSquareCoefficientsAndBands) {
   const Statistics s = run({.sigma_m = 3e-4});
@@ -83,7 +88,8 @@ TEST(Honesty, ChiSquareCoefficientsAndBands) {
   for (const auto& [name, asked] : s.asked) {
     const double expected = 0.95 * asked, sd = std::sqrt(asked * 0.95 * 0.05);
     EXPECT_GT(s.inside.at(name), expected - limit * sd) << name;
-    EXPECT_LT(s.inside.at(name), 0.96 * asked + limit * sd) << name;  // the bands are wide by some percent, as above
+    EXPECT_LT(s.inside.at(name), 0.96 * asked + limit * sd)
+        << name;  // the bands are wide by some percent, as above
   }
 }
 

@@ -23,7 +23,8 @@ TEST(FunctionBasis, IsOrthonormalAndStartsWithTheConstant) {
       EXPECT_NEAR(phi[0], 1, 1e-12);
     }
     // The midpoint rule with 20000 steps is good to about 1e-8.
-    EXPECT_LT((gram - Eigen::MatrixXd::Identity(basis.size(), basis.size())).cwiseAbs().maxCoeff(), 1e-6) << choice.str();
+    EXPECT_LT((gram - Eigen::MatrixXd::Identity(basis.size(), basis.size())).cwiseAbs().maxCoeff(), 1e-6)
+        << choice.str();
     EXPECT_EQ(FunctionBasis(choice, false).size(), basis.size() - 1);
   }
 }
@@ -59,7 +60,8 @@ TEST(LeafModel, DerivativesAgreeWithDifferences) {
         model.set(changed, false);
         model.point(curve, l, false, low);
         // Central differences: error of order step^2 and 1e-16 / step.
-        EXPECT_LT((at.jacobian.col(k) - (high.x - low.x) / (2 * step)).norm(), 1e-8) << "parameter " << k << " l " << l;
+        EXPECT_LT((at.jacobian.col(k) - (high.x - low.x) / (2 * step)).norm(), 1e-8)
+            << "parameter " << k << " l " << l;
       }
       if (l > 0 && l < 1 && l != 0.5) {  // at the knot the edge has a corner
         model.set(parameters, false);
@@ -77,7 +79,8 @@ TEST(LeafModel, AgreesWithTheGeometryOfThePlant) {
   model.set(parameters, false);
   OrganAttributes organ;
   const auto function = [&](const FunctionBasis& basis, int at) {
-    return basis.function(degrees(1) * (basis.transform() * parameters.segment(at, basis.size())), radians(1));
+    return basis.function(degrees(1) * (basis.transform() * parameters.segment(at, basis.size())),
+                          radians(1));
   };
   organ.length_m = parameters[0];
   organ.f_inclination = function(model.shape().inclination, model.at_inclination());

@@ -16,14 +16,16 @@ namespace {
 
 using enum ErrorKind;
 
-std::vector<MeasuredOrgan> read(const std::string& text, const std::string& columns, const std::string& dialect = "en",
-                                double unit = 0.01) {
+std::vector<MeasuredOrgan> read(const std::string& text, const std::string& columns,
+                                const std::string& dialect = "en", double unit = 0.01) {
   const test::TemporaryFolder folder;
-  return read_polylines(folder.write("t.csv", text), parse_polyline_columns(columns), unit, csv_dialect(dialect));
+  return read_polylines(folder.write("t.csv", text), parse_polyline_columns(columns), unit,
+                        csv_dialect(dialect));
 }
 
 TEST(PolylineTable, JoinsTheLeafsColumnsAndConvertsUnits) {
-  const auto organs = read("variety,n,x,y,z\nA,1,0,0,0\nA,2,0,1,0\nA,1,1,0,2\nB,1,5,0,1\n", "leaf=variety+n,x=x,z=z");
+  const auto organs =
+      read("variety,n,x,y,z\nA,1,0,0,0\nA,2,0,1,0\nA,1,1,0,2\nB,1,5,0,1\n", "leaf=variety+n,x=x,z=z");
   ASSERT_EQ(organs.size(), 3u);
   EXPECT_EQ(organs[0].key, "A 1");
   EXPECT_TRUE(organs[0].planar);
@@ -33,7 +35,8 @@ TEST(PolylineTable, JoinsTheLeafsColumnsAndConvertsUnits) {
 }
 
 TEST(PolylineTable, FrenchDialectOrderAndPlants) {
-  const auto organs = read("p;f;i;x;y;z\nP1;1;2;1,5;0;0\nP1;1;1;0;2,5;0\nP2;1;1;0;0;0\n", "leaf=f,plant=p,point=i,x=x,y=y,z=z", "fr");
+  const auto organs = read("p;f;i;x;y;z\nP1;1;2;1,5;0;0\nP1;1;1;0;2,5;0\nP2;1;1;0;0;0\n",
+                           "leaf=f,plant=p,point=i,x=x,y=y,z=z", "fr");
   ASSERT_EQ(organs.size(), 2u);
   EXPECT_EQ(organs[0].plant, "P1");
   EXPECT_FALSE(organs[0].planar);
@@ -68,25 +71,30 @@ double median_fraction(const std::vector<OrganFit>& fits) {
     EXPECT_TRUE(std::isfinite(fit.rms_m) && std::isfinite(fit.length_m)) << fit.measured.str();
     fraction.push_back(fit.rms_m / fit.length_m);
   }
-  std::nth_element(fraction.begin(), fraction.begin() + static_cast<std::ptrdiff_t>(fraction.size() / 2), fraction.end());
+  std::nth_element(fraction.begin(), fraction.begin() + static_cast<std::ptrdiff_t>(fraction.size() / 2),
+                   fraction.end());
   return fraction[fraction.size() / 2];
 }
 
 TEST(MeasuredLeaves, GrignonWheat) {
   const std::string file = "wheat-echap/architectural_measurements/xydb_Grignon2010.csv";
   BPMS_NEED_DATA(file);
-  const auto organs = read_polylines(test::data_folder() + "/" + file, parse_polyline_columns("leaf=variety+inerv,x=x,z=y"), 0.01, {});
+  const auto organs = read_polylines(test::data_folder() + "/" + file,
+                                     parse_polyline_columns("leaf=variety+inerv,x=x,z=y"), 0.01, {});
   ASSERT_EQ(organs.size(), 1369u);
   const auto start = std::chrono::steady_clock::now();
   EXPECT_LE(median_fraction(fit_organs(organs, test::exactly("p:3"))), 0.0040);
   EXPECT_LE(median_fraction(fit_organs(organs, test::exactly("p:4"))), 0.0025);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));  // some seconds; sanitizers are slower
+  EXPECT_LT(std::chrono::steady_clock::now() - start,
+            std::chrono::seconds(60));  // some seconds; sanitizers are slower
 }
 
 TEST(MeasuredLeaves, NoisyMaize) {
   const std::string file = "adel-leaf-curves/csv/So99.csv";
   BPMS_NEED_DATA(file);
-  const auto organs = read_polylines(test::data_folder() + "/" + file, parse_polyline_columns("leaf=rank_or_class+leaf,x=x_cm,z=y_cm"), 0.01, {});
+  const auto organs =
+      read_polylines(test::data_folder() + "/" + file,
+                     parse_polyline_columns("leaf=rank_or_class+leaf,x=x_cm,z=y_cm"), 0.01, {});
   ASSERT_EQ(organs.size(), 450u);
   EXPECT_LE(median_fraction(fit_organs(organs, test::exactly("p:3"))), 0.013);
 }

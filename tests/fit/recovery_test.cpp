@@ -20,7 +20,8 @@ void expect_functions_agree(const OrganFit& fit, const SyntheticLeaf& leaf, doub
   const auto compare = [&](const char* name, const std::unique_ptr<OrganFunction>& truth, double unit) {
     ASSERT_TRUE(fit.functions.contains(name)) << name;
     for (int k = 0; k <= 10; ++k)
-      EXPECT_NEAR(fit.functions.at(name).value(k / 10.0), unit * truth->value(k / 10.0), tolerance * unit) << name << " " << k;
+      EXPECT_NEAR(fit.functions.at(name).value(k / 10.0), unit * truth->value(k / 10.0), tolerance * unit)
+          << name << " " << k;
   };
   compare("inclination", leaf.organ.f_inclination, 1);
   compare("azimuth", leaf.organ.f_azimuth, 1);
@@ -35,10 +36,13 @@ TEST(Recovery, NoiseFreeLeavesOfEveryKind) {
     std::unique_ptr<OrganFunction> inclination, azimuth;
   };
   std::vector<Case> cases;
-  cases.push_back({"inclination=p:2,azimuth=p:1,twist=p:1,width=p:2", angles('p', {15, 40, 30}), angles('p', {-10, 20})});
-  cases.push_back({"inclination=f:3,azimuth=f:1,twist=p:1,width=p:2", angles('f', {50, -30, 5, 3}), angles('f', {0, 12})});
+  cases.push_back(
+      {"inclination=p:2,azimuth=p:1,twist=p:1,width=p:2", angles('p', {15, 40, 30}), angles('p', {-10, 20})});
+  cases.push_back({"inclination=f:3,azimuth=f:1,twist=p:1,width=p:2", angles('f', {50, -30, 5, 3}),
+                   angles('f', {0, 12})});
   cases.push_back({"inclination=n:4,azimuth=n:3,twist=p:1,width=p:2",
-                   angles('n', {0, 10, 1.0 / 3, 25, 2.0 / 3, 60, 1, 110}), angles('n', {0, -10, 0.5, 10, 1, -10})});
+                   angles('n', {0, 10, 1.0 / 3, 25, 2.0 / 3, 60, 1, 110}),
+                   angles('n', {0, -10, 0.5, 10, 1, -10})});
   cases.push_back({"inclination=s:5,azimuth=p:1,twist=p:1,width=p:2",
                    angles('s', {0, 10, 0.25, 20, 0.5, 60, 0.75, 80, 1, 130}), angles('p', {-8, 16})});
   for (Case& c : cases) {
@@ -125,19 +129,47 @@ TEST(Plant, WhatIsWrittenRebuildsTheFittedMidribs) {
   ASSERT_EQ(placed.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     std::vector<double> l;
-    for (std::size_t i = 0; i < fits[k].fitted_m.size(); ++i) l.push_back(static_cast<double>(i) / static_cast<double>(fits[k].fitted_m.size() - 1));
+    for (std::size_t i = 0; i < fits[k].fitted_m.size(); ++i)
+      l.push_back(static_cast<double>(i) / static_cast<double>(fits[k].fitted_m.size() - 1));
     const std::vector<MidribPoint> rebuilt = midrib(*placed[k].attributes, l);
     for (std::size_t i = 0; i < l.size(); ++i) {
       const Eigen::Vector3d there = placed[k].plant_from_organ * rebuilt[i].x_m;
       EXPECT_LT((there - (fits[k].fitted_m[i] - fits[k].base_m)).norm(), 1e-9);
     }
-    EXPECT_NEAR(placed[k].attributes->width_m * placed[k].attributes->f_width->value(0.5), fits[k].functions.at("width").value(0.5), 1e-9);
+    EXPECT_NEAR(placed[k].attributes->width_m * placed[k].attributes->f_width->value(0.5),
+                fits[k].functions.at("width").value(0.5), 1e-9);
   }
   const Json report = fit_report(fits, {fitted});
   EXPECT_EQ(report["summary"]["failed"], 0);
   EXPECT_EQ(report["organs"][1]["id"], 1);
-  // The base offsets are from the mean of the bases, which were 1 mm apart; the points are good to some millimetres.
+  // The base offsets are from the mean of the bases, which were 1 mm apart; the points are good to some
+  // millimetres.
   EXPECT_NEAR(report["organs"][2]["base_offset_m"][0].get<double>(), 0.001, 0.005);
+}
+
+TEST(Plant, MeasuredBasesAreKept) {
+  std::vector<MeasuredOrgan> organs;
+  for (int k = 0; k < 3; ++k) {
+    SyntheticLeaf leaf = arching_leaf();
+    leaf.direction = radians(100 * k);
+    leaf.base_m = {0.01 * k, 0.02, 0.03 * k - 0.02};
+    Philox random(15, static_cast<std::uint64_t>(k));
+    organs.push_back(measure(leaf, {}, random));
+  }
+  const std::vector<OrganFit> fits = fit_organs(organs, exactly("inclination=p:2,azimuth=p:1"));
+  AssemblyOptions options;
+  options.bud_m = Eigen::Vector3d(0, 0.01, 0.005);
+  options.measured_bases = true;
+  const FittedPlant fitted = assemble_plant("1", fits, {0, 1, 2}, options);
+  EXPECT_EQ(fitted.origin_m, *options.bud_m);
+  const Plant read = parse_plant("written.bpms", plant_text(fitted.plant));
+  const std::vector<PlacedOrgan> placed = place_organs(read);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const PlacedOrgan& organ = placed[static_cast<std::size_t>(fitted.ids[k])];
+    EXPECT_EQ(organ.kind, OrganKind::leaf);
+    const Eigen::Vector3d tip = organ.plant_from_organ * midrib(*organ.attributes, {1.0})[0].x_m;
+    EXPECT_LT((fitted.origin_m + tip - fits[k].fitted_m.back()).norm(), 1e-9);
+  }
 }
 
 TEST(Fit, WhatCannotBeFittedSaysWhy) {
