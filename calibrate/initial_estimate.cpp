@@ -83,11 +83,12 @@ BundleState single_camera(const BundleProblem& joint, int index, const Observati
   for (const CornerObservation& corner : alone.corners) frames.insert(corner.frame);
   if (alone.corners.empty()) return state;
   alone.free_bending = false;              // the joint solve knows it better
+  constexpr double rough = 1e-3;           // a start for what follows
   constexpr double cauchy_sigmas = 2.385;  // 95 % efficient on normal residuals
-  adjust(alone, {.rough = true}, state);
+  adjust(alone, {.tolerance = rough, .most_iterations = 50}, state);
   for (int round = 0; round < 2; ++round) {
     const double sigma = robust_sigma(alone, state);
-    if (sigma > 0) adjust(alone, {.cauchy_px = cauchy_sigmas * sigma, .rough = true}, state);
+    if (sigma > 0) adjust(alone, {cauchy_sigmas * sigma, rough, 50}, state);
   }
   state.cameras[0].parameters.resize(static_cast<std::size_t>(parameters), 0.0);
   return state;

@@ -1,6 +1,5 @@
 import { defineConfig } from "vitest/config";
 import { readFileSync } from "node:fs";
-import { resolve } from "node:path";
 import type { Plugin } from "vite";
 import { viteSingleFile } from "vite-plugin-singlefile";
 
@@ -8,15 +7,11 @@ const largest = 3_500_000; // bytes: the template is part of the binary
 
 // The template is worth nothing if the token is not there once, or if it asks for another file.
 function checkTemplate(): Plugin {
-  let built = "";
   return {
     name: "check-template",
     apply: "build",
-    configResolved(config) {
-      built = resolve(config.root, config.build.outDir, "report.html"); // where this run writes, not a page of another
-    },
-    closeBundle() {
-      const page = readFileSync(built, "utf8");
+    writeBundle(options) {
+      const page = readFileSync(`${options.dir ?? "dist"}/report.html`, "utf8");
       const tokens = page.split("__BPMS_DATA__").length - 1;
       if (tokens !== 1) this.error(`the template holds the data token ${tokens} times instead of once`);
       if (/<(script|link)[^>]*(src|href)="(?!data:)/.test(page)) this.error("the template asks for another file");

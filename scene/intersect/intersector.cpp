@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/intersect/parallel_rays.h"
 #include "scene/intersect/traced_scene.h"
 
 namespace bpms {
@@ -268,6 +269,11 @@ bool Intersector::occluded(const Ray& ray) const {
   Impl::Found found;
   double ground_distance = -1;
   return impl_->trace<true>(ray, found, ground_distance) == Escape::hit;
+}
+
+std::unique_ptr<ParallelRays> Intersector::parallel_rays(const Scene& scene, const Eigen::Vector3d& towards,
+                                                         std::uint64_t most_bytes) const {
+  return ParallelRays::make(impl_->traced, scene, towards, most_bytes);
 }
 
 float Intersector::top_m() const {

@@ -51,6 +51,8 @@ struct IntersectorOptions {
   std::uint64_t flatten_below = 100'000;
 };
 
+class ParallelRays;
+
 class Intersector {
  public:
   explicit Intersector(const Scene& scene, const IntersectorOptions& options = {});
@@ -60,6 +62,11 @@ class Intersector {
 
   Escape intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;  // anything between 0 and far (opaque or not)
+
+  // For many rays of one direction (see parallel_rays.h), or null where the scene does not suit. Both the
+  // intersector and the scene that it was made of must outlive it. `towards` is unit, with z > 0.
+  std::unique_ptr<ParallelRays> parallel_rays(const Scene& scene, const Eigen::Vector3d& towards,
+                                              std::uint64_t most_bytes = 1u << 29) const;
 
   float top_m() const;  // highest point of the scene (geometry and ground)
   float bottom_m() const;

@@ -35,6 +35,8 @@ class TracedScene {
   Eigen::Vector3d normal(const SurfaceId& id) const;  // the same for all copies
   // A point and a direction of the found copy's prototype, in the world.
   Eigen::Vector3d to_world(const embree::Found& found, const Eigen::Vector3f& point) const;
+  // The same for an instance itself.
+  Eigen::Vector3d place(std::uint32_t instance, const Eigen::Vector3f& point) const;
   Eigen::Vector3d turn(std::uint32_t instance, const Eigen::Vector3f& direction) const;
   const Prototype& prototype(std::uint32_t instance) const {
     return prototypes_[instances_[instance].prototype];
@@ -67,7 +69,6 @@ class TracedScene {
   }
   static std::uint32_t kind_of(const embree::Found& found) { return found.geometry & 1u; }
   std::uint64_t primitives(std::uint32_t prototype) const;
-  Eigen::Vector3d place(std::uint32_t instance, const Eigen::Vector3f& point) const;
   bool inside(const Box& b, const Eigen::Vector2d& shift) const;
   void sort_discs();
   void make_triangle_normals();
