@@ -86,8 +86,10 @@ void trace_path(const Stage& stage, Ray ray, const ParallelRays* view_rays, cons
     const float strength = weight.guide.largest();
     if (!(strength > 0)) return;
     // Roulette as absorption would do it: variance x cost is least where the chance to go on follows the
-    // weight. Where a first hit is cheap, fewer of them are followed.
-    const float survival = strength * (order == 0 && view_rays != nullptr ? followed : 1.0f);
+    // weight. Where a first hit is cheap, fewer of them are followed; the sky is seen by the ray that goes on
+    // from the first hit, which is then worth its cost.
+    const float share_followed = view_rays != nullptr ? followed : 1.0f;
+    const float survival = order > 0 ? strength : light.sky ? 1.0f : strength * share_followed;
     if (sampling.roulette && survival < 1.0f) {
       if (random.survival >= static_cast<double>(survival)) return;
       tally.scale(weight, 1.0f / survival);
