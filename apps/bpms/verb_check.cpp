@@ -80,8 +80,8 @@ const std::vector<FileKind>& kinds() {
       {"scene.toml",
        [](const std::string& path, std::string_view head) {
          if (!path.ends_with(".toml")) return false;
-         for (const char* table : {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
-           if (head.find(table) != std::string_view::npos) return true;
+         for (const char* word : {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
+           if (head.find(word) != std::string_view::npos) return true;
          return false;
        },
        check_scene},
