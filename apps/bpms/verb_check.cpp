@@ -74,7 +74,8 @@ const std::vector<FileKind>& kinds() {
       {"scene.toml",
        [](const std::string& path, std::string_view head) {
          if (!path.ends_with(".toml")) return false;
-         for (const char* word : {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
+         for (const char* word :
+              {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
            if (head.find(word) != std::string_view::npos) return true;
          return false;
        },
