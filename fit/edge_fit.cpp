@@ -5,6 +5,7 @@
 
 #include "core/units.h"
 #include "fit/function_search.h"
+#include "fit/outliers.h"
 
 namespace bpms {
 namespace {
@@ -30,6 +31,16 @@ bool stays_near(const LeafTrial& trial, const EdgeStart& edges) {
   return true;
 }
 
+void drop_far_points(LeafProblem& problem, const LeafTrial& midrib, const EdgeStart& start) {
+  constexpr FunctionChoice twist{'p', 2}, width{'p', 3};
+  constexpr std::size_t least_points = 10;
+  if (start.l.size() < least_points) return;
+  LeafTrial rich = solve_edges(problem, midrib, start, twist, width);
+  for (const std::size_t k :
+       far_observations(rich.model, problem.edges, rich.solution.parameters, midrib.model.parameters()))
+    problem.edges[k].weight = 0;
+}
+
 }  // namespace
 
 std::optional<LeafTrial> fit_edges(LeafProblem& problem, const LeafTrial& midrib,
@@ -40,6 +51,16 @@ std::optional<LeafTrial> fit_edges(LeafProblem& problem, const LeafTrial& midrib
     out.notes.push_back(
         "by the edges' labels the upper face looked away from the stem at the base: left and right "
         "exchanged");
+  if (start.l.empty()) {
+    out.notes.push_back("no edge point lies beside the midrib: twist and width left out");
+    return std::nullopt;
+  }
+  if (problem.errors_known) drop_far_points(problem, midrib, start);
+  const auto without = std::count_if(problem.edges.begin(), problem.edges.end(),
+                                     [](const LeafObservation& o) { return o.weight <= 0; });
+  if (without > 0)
+    out.notes.push_back(fmt::format("{} of {} edge points left out: far off, or beyond the midrib's ends",
+                                    without, problem.edges.size()));
   const int numbers = numbers_that_count(problem.edges);
   const auto solve = [&](FunctionChoice twist, FunctionChoice width) -> std::optional<LeafTrial> {
     if (FunctionBasis(twist, true).size() + FunctionBasis(width, true).size() >= numbers) return std::nullopt;
@@ -63,8 +84,12 @@ std::optional<LeafTrial> fit_edges(LeafProblem& problem, const LeafTrial& midrib
         [&](FunctionChoice c) { return sensible(c, width); }, out.aicc_table["twist"]);
     if (best) twist = *best;
   }
-  std::optional<LeafTrial> trial = solve(twist, width);
-  while (!trial && (lower_order(width) || lower_order(twist))) trial = solve(twist, width);
+  // A function that was asked for is given as long as the points carry it, one that was chosen must make
+  // sense too.
+  const bool asked = request.twist && request.width;
+  std::optional<LeafTrial> trial = asked ? solve(twist, width) : sensible(twist, width);
+  while (!trial && (lower_order(width) || lower_order(twist)))
+    trial = asked ? solve(twist, width) : sensible(twist, width);
   if (trial && trial->usable()) return trial;
   out.notes.push_back("the edges could not be fitted: twist and width left out");
   return std::nullopt;
