@@ -93,9 +93,9 @@ ceres::Solver::Summary solve(ceres::Problem& problem, const AdjustOptions& optio
                                    [&](const MovingPose& pose) { return pose.change.data() == block; });
     settings.linear_solver_ordering->AddElementToGroup(block, board ? 0 : 1);
   }
-  settings.max_num_iterations = options.rough ? 50 : 500;
+  settings.max_num_iterations = options.most_iterations;
   settings.max_num_consecutive_invalid_steps = 50;
-  settings.function_tolerance = options.rough ? 1e-3 : 1e-14;
+  settings.function_tolerance = options.tolerance;
   settings.parameter_tolerance = 1e-13;
   settings.gradient_tolerance = 1e-13;
   settings.num_threads = 1;

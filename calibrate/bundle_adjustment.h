@@ -41,8 +41,9 @@ std::optional<Eigen::Vector2d> residual(const BundleProblem& problem, const Bund
 double robust_sigma(const BundleProblem& problem, const BundleState& state);
 
 struct AdjustOptions {
-  double cauchy_px = 0;  // scale of the loss; 0 = plain least squares
-  bool rough = false;    // a start for the next round: three digits of the cost will do
+  double cauchy_px = 0;      // scale of the loss; 0 = plain least squares
+  double tolerance = 1e-14;  // relative change of the cost at which the last step counts as converged
+  int most_iterations = 500;
 };
 struct AdjustResult {
   bool converged = false;

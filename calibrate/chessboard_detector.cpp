@@ -28,8 +28,7 @@ bool find_board(const cv::Mat& grey, const Target& target, std::vector<cv::Point
   if (cv::findChessboardCorners(grey, size, corners,
                                 cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE))
     return true;
-  return cv::findChessboardCornersSB(grey, size, corners,
-                                     cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE);
+  return cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE);
 }
 
 void refine(const cv::Mat& grey, const Target& target, std::vector<cv::Point2f>& corners) {

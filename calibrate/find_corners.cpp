@@ -21,6 +21,20 @@ struct Image {
   std::string trouble;
 };
 
+Image name_image(const std::string& path) {
+  Image out{path, {}, 0, 0, std::nullopt, {}};
+  if (path.find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path)) {
+    out.trouble = "no file matches";
+    return out;
+  }
+  try {
+    out.name = parse_image_name(path);
+  } catch (const Error& error) {
+    out.trouble = error.message();
+  }
+  return out;
+}
+
 void look(const Target& target, Image& image) {
   if (!std::filesystem::exists(image.path)) {
     image.trouble = "no such file";
@@ -88,13 +102,7 @@ std::vector<std::string> expand_patterns(const std::vector<std::string>& argumen
 
 Observations find_corners(const std::vector<std::string>& paths, const Target& target) {
   std::vector<Image> images;
-  for (const std::string& path : paths) {
-    const bool pattern = path.find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path);
-    if (pattern)
-      images.push_back({path, {}, 0, 0, std::nullopt, "no file matches"});
-    else
-      images.push_back({path, parse_image_name(path), 0, 0, std::nullopt, {}});
-  }
+  for (const std::string& path : paths) images.push_back(name_image(path));
   Progress progress("finding corners", images.size());
   parallel_for(images.size(), [&](std::size_t i) {
     if (images[i].trouble.empty()) look(target, images[i]);
@@ -106,7 +114,7 @@ Observations find_corners(const std::vector<std::string>& paths, const Target& t
   std::map<std::pair<int, std::string>, std::string> taken;
   for (Image& image : images) {
     const auto [width, height] = usual_size(images, image.name.camera);
-    if (image.trouble.empty() && std::pair(image.width_px, image.height_px) != std::pair(width, height))
+    if (image.width_px > 0 && std::pair(image.width_px, image.height_px) != std::pair(width, height))
       image.trouble = fmt::format("{}x{} pixels; most images of camera {} have {}x{}", image.width_px,
                                   image.height_px, image.name.camera, width, height);
     if (!image.trouble.empty()) {

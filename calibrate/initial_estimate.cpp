@@ -83,11 +83,12 @@ BundleState single_camera(const BundleProblem& joint, int index, const Observati
   for (const CornerObservation& corner : alone.corners) frames.insert(corner.frame);
   if (alone.corners.empty()) return state;
   alone.free_bending = false;              // the joint solve knows it better
+  constexpr double rough = 1e-3;           // a start for what follows
   constexpr double cauchy_sigmas = 2.385;  // 95 % efficient on normal residuals
-  adjust(alone, {.rough = true}, state);
+  adjust(alone, {.tolerance = rough, .most_iterations = 50}, state);
   for (int round = 0; round < 2; ++round) {
     const double sigma = robust_sigma(alone, state);
-    if (sigma > 0) adjust(alone, {.cauchy_px = cauchy_sigmas * sigma, .rough = true}, state);
+    if (sigma > 0) adjust(alone, {cauchy_sigmas * sigma, rough, 50}, state);
   }
   state.cameras[0].parameters.resize(static_cast<std::size_t>(parameters), 0.0);
   return state;
@@ -111,6 +112,37 @@ Pose medoid(const std::vector<Pose>& candidates) {
     if (distances[distances.size() / 2] < least) least = distances[distances.size() / 2], best = i;
   }
   return candidates[best];
+}
+
+// Each frame's board from the camera whose view of it suits the other views best: a view found wrongly must
+// not place the board for all.
+void place_boards(const BundleProblem& problem, const std::vector<BundleState>& alone,
+                  const std::vector<std::set<int>>& frames, BundleState& joint) {
+  const auto count = static_cast<std::size_t>(problem.frames);
+  joint.rig_from_board.resize(count);
+  std::vector<std::vector<CornerObservation>> corners(count);
+  for (const CornerObservation& corner : problem.corners)
+    corners[static_cast<std::size_t>(corner.frame)].push_back(corner);
+  std::vector<double> least(count, HUGE_VAL);
+  for (std::size_t c = 0; c < alone.size(); ++c) {
+    const Pose rig_from_cam =
+        Pose{joint.cameras[c].r_cam_from_rig, joint.cameras[c].t_cam_from_rig_m}.inverse();
+    for (const int frame : frames[c]) {
+      const auto f = static_cast<std::size_t>(frame);
+      const Pose before = joint.rig_from_board[f];
+      joint.rig_from_board[f] = rig_from_cam * alone[c].rig_from_board[f];
+      double cost = 0;
+      for (const CornerObservation& corner : corners[f]) {
+        const auto r = residual(problem, joint, corner);
+        constexpr double nowhere_px = 1e4;
+        cost += std::log1p(r ? r->squaredNorm() : nowhere_px * nowhere_px);  // Cauchy's loss at 1 px
+      }
+      if (cost < least[f])
+        least[f] = cost;
+      else
+        joint.rig_from_board[f] = before;
+    }
+  }
 }
 
 }  // namespace
@@ -160,14 +192,7 @@ BundleState initial_estimate(const BundleProblem& problem,
     camera.t_cam_from_rig_m = pose.t_m;
     joined[to] = true;
   }
-  joint.rig_from_board.resize(static_cast<std::size_t>(problem.frames));
-  for (std::size_t c = n; c-- > 0;) {  // of the cameras that see a frame, the first one places it
-    const Pose rig_from_cam =
-        Pose{joint.cameras[c].r_cam_from_rig, joint.cameras[c].t_cam_from_rig_m}.inverse();
-    for (const int frame : frames[c])
-      joint.rig_from_board[static_cast<std::size_t>(frame)] =
-          rig_from_cam * alone[c].rig_from_board[static_cast<std::size_t>(frame)];
-  }
+  place_boards(problem, alone, frames, joint);
   return joint;
 }
 

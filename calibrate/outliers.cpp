@@ -60,9 +60,10 @@ OutlierSearch fit_without_outliers(BundleProblem& problem, int views, BundleStat
   for (CornerObservation& corner : problem.corners)
     corner.used = residual(problem, state, corner).has_value();
   constexpr int robust_rounds = 2, most_rounds = 10;
+  constexpr double rough = 1e-3;
   for (int round = 0; round < robust_rounds; ++round) {
     const double sigma = std::max(robust_sigma(problem, state), least_sigma_px);
-    adjust(problem, {.cauchy_px = cauchy_sigmas * sigma, .rough = true}, state);
+    adjust(problem, {cauchy_sigmas * sigma, rough, 50}, state);
   }
   for (int round = 0; round < most_rounds; ++round) {
     out.sigma_px = std::max(robust_sigma(problem, state), least_sigma_px);

@@ -86,7 +86,8 @@ BundleState solve_subset(const BundleProblem& problem, const BundleState& start,
     return !corner.used || !keep_frame[static_cast<std::size_t>(corner.frame)];
   });
   BundleState state = start;
-  if (subset.corners.empty() || !adjust(subset, {}, state).converged)
+  constexpr double tolerance = 1e-10;  // leaves less than 1e-3 sigma
+  if (subset.corners.empty() || !adjust(subset, {.tolerance = tolerance}, state).converged)
     throw Error(ErrorKind::numeric, "a solve over part of the frames did not converge");
   return state;
 }

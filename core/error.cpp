@@ -31,18 +31,10 @@ std::string SourceLocation::str() const {
 }
 
 namespace {
-std::string located(const SourceLocation& where, const std::string& message) {
-  return where.file.empty() ? message : where.str() + ": " + message;
-}
-}  // namespace
 
-Error::Error(ErrorKind kind, SourceLocation where, const std::string& message)
-    : std::runtime_error(located(where, message)), kind_(kind), where_(std::move(where)), message_(message) {}
-
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string out = "'";
-  for (const char c : text.substr(0, longest)) {
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte == 0x7f) {
       out += fmt::format("\\x{:02x}", byte);
@@ -50,6 +42,25 @@ std::string in_quotes(std::string_view text) {
       out += c;
     }
   }
+  return out;
+}
+
+// One line whatever stands in it: names in a message may come from a file.
+std::string located(const SourceLocation& where, const std::string& message) {
+  return escaped(where.file.empty() ? message : where.str() + ": " + message);
+}
+
+}  // namespace
+
+Error::Error(ErrorKind kind, SourceLocation where, const std::string& message)
+    : std::runtime_error(located(where, message)),
+      kind_(kind),
+      where_(std::move(where)),
+      message_(escaped(message)) {}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  std::string out = "'" + escaped(text.substr(0, longest));
   if (text.size() > longest) out += "...";
   return out + "'";
 }

@@ -19,7 +19,7 @@ Result simulate(const Simulation& simulation, std::uint64_t seed) {
 Result simulate(const Simulation& simulation, const Intersector& intersector, std::uint64_t seed) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  const Stage stage{&intersector, &simulation, make_optics(simulation), extent_of(intersector)};
+  const Stage stage = make_stage(simulation, intersector);
   Result out;
   out.seed = seed;
   out.threads = threads();

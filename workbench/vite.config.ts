@@ -10,8 +10,8 @@ function checkTemplate(): Plugin {
   return {
     name: "check-template",
     apply: "build",
-    closeBundle() {
-      const page = readFileSync("dist/report.html", "utf8");
+    writeBundle(options) {
+      const page = readFileSync(`${options.dir ?? "dist"}/report.html`, "utf8");
       const tokens = page.split("__BPMS_DATA__").length - 1;
       if (tokens !== 1) this.error(`the template holds the data token ${tokens} times instead of once`);
       if (/<(script|link)[^>]*(src|href)="(?!data:)/.test(page)) this.error("the template asks for another file");

@@ -20,6 +20,7 @@ constexpr void (*verbs[])(Cli&) = {
     bpms::add_reconstruct,
     bpms::add_fit,
     bpms::add_build,
+    bpms::add_describe,
     bpms::add_simulate,
     bpms::add_report,
 };

@@ -16,7 +16,9 @@ std::string html_page(const Json& document) {
   const std::size_t at = page.find(token);
   if (at == std::string_view::npos) throw Error(ErrorKind::internal, "the report page has no place for data");
   std::string data;
-  for (const char c : document.dump()) {  // a '<' inside a text must not end the script element
+  for (const char c : document.dump(
+           -1, ' ', false,
+           Json::error_handler_t::replace)) {  // a '<' inside a text must not end the script element
     if (c == '<') {
       data += "\\u003c";
     } else {

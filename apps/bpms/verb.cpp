@@ -48,7 +48,9 @@ void deliver_report(const Cli& cli, const std::string& verb, Json report, const 
   Json out{{"report", verb}};
   out.update(report);
   out["provenance"] = provenance.json();
-  if (cli.common.json) fmt::print("{}\n", out.dump());
+  // Names from files in another encoding than UTF-8 must not cost the report.
+  constexpr auto replace = Json::error_handler_t::replace;
+  if (cli.common.json) fmt::print("{}\n", out.dump(-1, ' ', false, replace));
   const std::string& path = cli.common.report;
   if (path.empty()) return;
   if (path.ends_with(".html")) {
@@ -56,7 +58,7 @@ void deliver_report(const Cli& cli, const std::string& verb, Json report, const 
         {"title", "bpms " + verb}, {"version", version()}, {"command", cli.command}, {"reports", {out}}};
     write_file(path, html_page(page), cli.common.overwrite);
   } else {
-    write_file(path, out.dump(1) + "\n", cli.common.overwrite);
+    write_file(path, out.dump(1, ' ', false, replace) + "\n", cli.common.overwrite);
   }
 }
 

@@ -12,7 +12,9 @@
 #include "core/progress.h"
 #include "core/records.h"
 #include "core/text.h"
+#include "plant/canopy.h"
 #include "plant/plant.h"
+#include "simulate/simulate.h"
 
 namespace bpms {
 namespace {
@@ -24,7 +26,24 @@ bool first_line_has(std::string_view head, std::string_view word) {
 std::string check_plant(const std::string& path) {
   const Plant plant = read_plant(path);
   for (const std::string& warning : plant.warnings) note(warning);
-  return fmt::format("{} organs, {} blocks, {} notes", place_organs(plant).size(), plant.blocks.size(), plant.warnings.size());
+  return fmt::format("{} organs, {} blocks, {} notes", place_organs(plant).size(), plant.blocks.size(),
+                     plant.warnings.size());
+}
+
+std::string check_canopy(const std::string& path) {
+  const Canopy canopy = read_canopy(path);
+  for (const std::string& text : canopy.notes) note(text);
+  return fmt::format("{} plants from {} plant files", canopy.placements.size(), canopy.plants.size());
+}
+
+std::string check_scene(const std::string& path) {
+  const Simulation simulation = read_simulation(path);
+  for (const std::string& text : simulation.scene.notes) note(text);
+  std::size_t views = 0;
+  for (const auto& sensor : simulation.sensors) views += sensor->views();
+  return fmt::format("{} instances of {} prototypes, {} materials, {} sensors, {} views, {} bands",
+                     simulation.scene.instances.size(), simulation.scene.prototypes.size(),
+                     simulation.materials.size(), simulation.sensors.size(), views, simulation.bands.count());
 }
 
 const std::vector<FileKind>& kinds() {
@@ -35,7 +54,13 @@ const std::vector<FileKind>& kinds() {
        }},
       {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
-      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
+      {"plant.bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
+       check_plant},
+      {"canopy.toml",
+       [](const std::string& path, std::string_view head) {
+         return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
+       },
+       check_canopy},
       {"rig.toml",
        [](const std::string&, std::string_view head) {
          return head.find("[[cameras]]") != std::string_view::npos;
@@ -46,6 +71,14 @@ const std::vector<FileKind>& kinds() {
          return head.find("square_m") != std::string_view::npos;
        },
        [](const std::string& path) { return fmt::format("{} corners", read_board(path).size()); }},
+      {"scene.toml",
+       [](const std::string& path, std::string_view head) {
+         if (!path.ends_with(".toml")) return false;
+         for (const char* word : {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
+           if (head.find(word) != std::string_view::npos) return true;
+         return false;
+       },
+       check_scene},
   };
   return table;
 }

@@ -112,17 +112,28 @@ std::string vectors_text(const Vectors& vectors, const Frame& frame, bool with_r
   return vectors_csv(rows);
 }
 
+Json numbers(const Eigen::Vector3d& x) {
+  return std::array<double, 3>{x.x(), x.y(), x.z()};
+}
+
+// Unit vector from the middle of the points to the middle of the cameras.
+Eigen::Vector3d towards_cameras(const Vectors& vectors, const Rig& rig, const Frame& frame) {
+  Eigen::Vector3d points = Eigen::Vector3d::Zero(), cameras = Eigen::Vector3d::Zero();
+  const std::vector<VectorPoint> accepted = vectors.accepted();
+  for (const VectorPoint& p : accepted) points += p.x_m / static_cast<double>(accepted.size());
+  for (const Camera& c : rig.cameras)
+    cameras -= c.r_cam_from_rig.transpose() * c.t_cam_from_rig_m / static_cast<double>(rig.cameras.size());
+  return frame.rotation * (cameras - points).normalized();
+}
+
 Json frame_json(const Frame& frame, const Options& options) {
   Json rotation = Json::array();
-  for (int i = 0; i < 3; ++i)
-    rotation.push_back(
-        std::array<double, 3>{frame.rotation(i, 0), frame.rotation(i, 1), frame.rotation(i, 2)});
+  for (int i = 0; i < 3; ++i) rotation.push_back(numbers(frame.rotation.row(i)));
   const std::string up = !options.up_from.empty() ? "pot rim" : !options.up.empty() ? "given" : "rig";
-  return {
-      {"up", up},
-      {"origin", options.origin.empty() ? "rig" : options.origin},
-      {"rotation_from_rig", rotation},
-      {"origin_in_rig_m", std::array<double, 3>{frame.origin_m.x(), frame.origin_m.y(), frame.origin_m.z()}}};
+  return {{"up", up},
+          {"origin", options.origin.empty() ? "rig" : options.origin},
+          {"rotation_from_rig", rotation},
+          {"origin_in_rig_m", numbers(frame.origin_m)}};
 }
 
 void run(const Cli& cli, const Options& options) {
@@ -154,6 +165,10 @@ void run(const Cli& cli, const Options& options) {
 
   Json report = reconstruction_json(vectors, rig, frame);
   report["frame"] = frame_json(frame, options);
+  // For the drawing: where up and the cameras are, in the frame of the points.
+  const bool upright_frame = !options.up.empty() || !options.up_from.empty();
+  if (upright_frame) report["vertical_m"] = {0.0, 0.0, 1.0};
+  report["towards_cameras"] = numbers(towards_cameras(vectors, rig, frame));
   report["figures"] = figures;
   if (!pot.is_null()) report["pot"] = pot;
   if (!options.photographs.empty()) report["photographs"] = photographs_json(options, rig, vectors, made);

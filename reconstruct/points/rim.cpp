@@ -138,6 +138,36 @@ Circle optimise(const Data& data, Circle at) {
        data.x.size());
 }
 
+// Chi-square of the straight line through the points: a circle says something only where this is much larger.
+double line_cost(const Data& data, const Circle& circle) {
+  Eigen::Vector3d a = circle.centre + circle.radius * circle.direction(data.x.size() / 2);
+  Eigen::Vector3d d = (data.x.back() - data.x.front()).normalized();
+  double sum = 0;
+  constexpr int steps = 10;  // the problem is linear but for the positions along the line
+  for (int step = 0; step < steps; ++step) {
+    const Eigen::Vector3d n1 = d.unitOrthogonal(), n2 = d.cross(n1);
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    sum = 0;
+    for (std::size_t i = 0; i < data.x.size(); ++i) {
+      const Eigen::Vector3d b = data.whitener[i] * d, whole = data.whitener[i] * (data.x[i] - a);
+      const double t = b.dot(whole) / b.squaredNorm();
+      const Eigen::Vector3d r = whole - t * b;
+      Eigen::Matrix<double, 3, 4> by_line;
+      by_line << n1, n2, t * n1, t * n2;
+      by_line = (data.whitener[i] * by_line).eval();
+      by_line -= (b * (b.transpose() * by_line) / b.squaredNorm()).eval();
+      normal += by_line.transpose() * by_line;
+      right += by_line.transpose() * r;
+      sum += r.squaredNorm();
+    }
+    const Eigen::Vector4d delta = normal.ldlt().solve(right);
+    a += delta[0] * n1 + delta[1] * n2;
+    d = (d + delta[2] * n1 + delta[3] * n2).normalized();
+  }
+  return sum;
+}
+
 Data data_of(const std::vector<const ReconstructedPoint*>& points, double roughness) {
   Data out;
   for (const ReconstructedPoint* p : points) {
@@ -213,7 +243,9 @@ Rim fit_rim(const std::vector<const ReconstructedPoint*>& points, const Eigen::M
   double sum = 0;
   for (const auto& x : data.x) sum += std::pow(out.normal.dot(x - circle.centre), 2);
   out.plane_rms_m = std::sqrt(sum / out.points);
-  constexpr double largest_share = 0.5;
+  constexpr double largest_share = 0.5, least_gain = 25;  // five standard errors
+  if (!(line_cost(data, circle) > out.chi2 + least_gain))
+    fail(ErrorKind::numeric, {}, "the pot outline does not tell a circle: a straight line fits as well");
   if (!(out.diameter_sigma_m < largest_share * out.diameter_m) || !(out.normal_sigma_rad < largest_share))
     fail(
         ErrorKind::numeric, {},

@@ -92,24 +92,25 @@ bool evaluate(const std::vector<Sighting>& sightings, const Rig& rig, const Eige
 
 bool gauss_newton(const std::vector<Sighting>& sightings, const Rig& rig, Triangulation& at) {
   constexpr int most_steps = 100, most_halvings = 30;
-  constexpr double done = 1e-18;     // squared length of a step in standard errors
-  constexpr double rounding = 1e-8;  // the same where no shorter step makes the sum of squares smaller
+  // Squared lengths of steps in standard errors: done; and so near that rounding hides whether the sum
+  // shrinks.
+  constexpr double done = 1e-18, near = 1e-6;
   for (int step = 0; step < most_steps; ++step) {
     const Eigen::Matrix3d normal = at.by_point.transpose() * at.by_point;
     const Eigen::Vector3d delta = normal.ldlt().solve(at.by_point.transpose() * at.residual);
     if (!delta.allFinite()) return false;
     const double length = delta.dot(normal * delta);
+    if (length < done) return true;
+    bool taken = false;
     double share = 1;
-    bool better = false;
-    for (int halving = 0; halving < most_halvings && !better; ++halving, share /= 2) {
+    for (int halving = 0; halving < most_halvings && !taken; ++halving, share /= 2) {
       Triangulation next;
       if (!evaluate(sightings, rig, at.x_m + share * delta, next)) continue;
-      if (next.residual.squaredNorm() > at.residual.squaredNorm()) continue;
+      if (length > near && next.residual.squaredNorm() >= at.residual.squaredNorm()) continue;
       at = std::move(next);
-      better = true;
+      taken = true;
     }
-    if (length < done) return true;
-    if (!better) return length < rounding;
+    if (!taken) return false;
   }
   return false;
 }

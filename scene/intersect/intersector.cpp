@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/intersect/parallel_rays.h"
 #include "scene/intersect/traced_scene.h"
 
 namespace bpms {
@@ -54,9 +55,7 @@ struct Intersector::Impl {
   std::optional<Ground> ground;
   bool periodic;
   int max_wraps;
-  Eigen::Vector2d size, low, high;    // the cell
-  Eigen::Vector2d box_low, box_high;  // with the margin
-  Eigen::Vector2d stride;             // whole cells that a ray which leaves the box is put back
+  Eigen::Vector2d size, low, high;  // the cell
   double top, bottom, slack;
   double lift;
 };
@@ -80,9 +79,6 @@ Intersector::Impl::Impl(const Scene& scene, const IntersectorOptions& options)
   if (!periodic && !(high.x() >= low.x())) low = high = Eigen::Vector2d::Zero();
   if (!periodic && size.minCoeff() > 0) low = -0.5 * size, high = 0.5 * size;
   slack = 1e-5 * std::max({std::abs(top), std::abs(bottom), top - bottom});
-  box_low = low.array() - traced.margin_m();
-  box_high = high.array() + traced.margin_m();
-  if (periodic) stride = size.array() * ((box_high - box_low).array() / size.array() + 1e-9).floor();
   lift = traced.instanced() ? lift_instanced : lift_flat;
 }
 
@@ -98,6 +94,8 @@ Intersector::Impl::Way Intersector::Impl::start(const Ray& ray) const {
   if (periodic) into_cell(way.origin);
   way.lift = lift * (way.origin.cwiseAbs().maxCoeff() + 1e-3);
   if (way.from.geometry < TracedScene::ground) {
+    // A point of a wide triangle near the scene's origin is as inexact as the triangle's far corners.
+    way.lift += lift * traced.reach(way.from);
     const Eigen::Vector3d n = traced.normal(way.from);
     way.origin += (n.dot(way.direction) < 0 ? -way.lift : way.lift) * n;
   }
@@ -169,7 +167,7 @@ Escape Intersector::Impl::trace(const Ray& ray, Found& found, double& ground_dis
       for (int axis = 0; axis < 2; ++axis) {
         const double d = way.direction[axis];
         if (d == 0) continue;
-        const double t = ((d > 0 ? box_high[axis] : box_low[axis]) - way.origin[axis]) / d;
+        const double t = ((d > 0 ? high[axis] : low[axis]) - way.origin[axis]) / d;
         if (t < to_side) to_side = t, side = axis;
       }
     }
@@ -185,7 +183,7 @@ Escape Intersector::Impl::trace(const Ray& ray, Found& found, double& ground_dis
     }
     if (wraps >= max_wraps) return Escape::wrap_limit;
     advance(std::max(0.0, to_side - way.lift));
-    way.origin[side] -= std::copysign(stride[side], way.direction[side]);
+    way.origin[side] -= std::copysign(size[side], way.direction[side]);
   }
 }
 
@@ -273,6 +271,11 @@ bool Intersector::occluded(const Ray& ray) const {
   Impl::Found found;
   double ground_distance = -1;
   return impl_->trace<true>(ray, found, ground_distance) == Escape::hit;
+}
+
+std::unique_ptr<ParallelRays> Intersector::parallel_rays(const Scene& scene, const Eigen::Vector3d& towards,
+                                                         std::uint64_t most_bytes) const {
+  return ParallelRays::make(impl_->traced, scene, towards, most_bytes);
 }
 
 float Intersector::top_m() const {

@@ -19,6 +19,9 @@ struct SurfaceId {
   std::uint32_t primitive = 0xffffffffu;
 };
 
+// The ground plane's own name: a ray that starts on the ground.
+inline constexpr SurfaceId ground_surface{0, 2, 0};
+
 struct Ray {
   Eigen::Vector3f origin;
   Eigen::Vector3f direction;
@@ -46,8 +49,9 @@ struct IntersectorOptions {
   // Prototypes that stand more than once are instanced when all their instances have more primitives than
   // this.
   std::uint64_t flatten_below = 100'000;
-  double margin_m = -1;  // of copies kept around a periodic cell; negative: chosen
 };
+
+class ParallelRays;
 
 class Intersector {
  public:
@@ -58,6 +62,11 @@ class Intersector {
 
   Escape intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;  // anything between 0 and far (opaque or not)
+
+  // For many rays of one direction (see parallel_rays.h), or null where the scene does not suit. Both the
+  // intersector and the scene that it was made of must outlive it. `towards` is unit, with z > 0.
+  std::unique_ptr<ParallelRays> parallel_rays(const Scene& scene, const Eigen::Vector3d& towards,
+                                              std::uint64_t most_bytes = 1u << 29) const;
 
   float top_m() const;  // highest point of the scene (geometry and ground)
   float bottom_m() const;

@@ -27,11 +27,11 @@ TracedScene::TracedScene(const Scene& scene, const IntersectorOptions& options)
     box_.include(instance_bounds.back());
   }
   if (periodic_) {
-    margin_ = options.margin_m >= 0 ? options.margin_m : 0;
     // A hair more, so that no rounding opens a gap where a ray changes sides.
-    const double slack = 1e-5 * (size_.maxCoeff() + margin_);
-    complete_low_ = (-0.5 * size_).array() - margin_ - slack;
-    complete_high_ = (0.5 * size_).array() + margin_ + slack;
+    const double slack =
+        1e-5 * (size_.maxCoeff() + (box_.empty() ? 0 : std::abs(box_.low.z()) + std::abs(box_.high.z())));
+    complete_low_ = (-0.5 * size_).array() - slack;
+    complete_high_ = (0.5 * size_).array() + slack;
     box_.low.head<2>() = -0.5 * size_;
     box_.high.head<2>() = 0.5 * size_;
   }
@@ -260,6 +260,18 @@ Eigen::Vector3d TracedScene::place(std::uint32_t i, const Eigen::Vector3f& point
 Eigen::Vector3d TracedScene::turn(std::uint32_t i, const Eigen::Vector3f& v) const {
   const Rotation& r = rotations_[i];
   return {r.cosine * v.x() - r.sine * v.y(), r.sine * v.x() + r.cosine * v.y(), static_cast<double>(v.z())};
+}
+
+double TracedScene::reach(const SurfaceId& id) const {
+  if (id.geometry == ground) return 0;
+  const Prototype& p = prototype(id.instance);
+  if (id.geometry == discs)
+    return instances_[id.instance].scale * 2 * static_cast<double>(p.discs[id.primitive].radius_m);
+  const auto& [a, b, c] = p.mesh->triangles[id.primitive];
+  const Eigen::Vector3f& from = p.mesh->positions_m[a];
+  const float widest = std::max((p.mesh->positions_m[b] - from).cwiseAbs().maxCoeff(),
+                                (p.mesh->positions_m[c] - from).cwiseAbs().maxCoeff());
+  return instances_[id.instance].scale * 2 * static_cast<double>(widest);
 }
 
 Eigen::Vector3d TracedScene::normal(const SurfaceId& id) const {

@@ -26,6 +26,8 @@ class BrfSensor : public Sensor {
   double vza_deg(std::size_t view) const override { return list[view].vza_deg; }
   double vaa_deg(std::size_t view) const override { return list[view].vaa_deg; }
 
+  std::optional<Eigen::Vector3d> parallel(std::size_t view) const override { return list[view].to_sensor; }
+
   Ray start(std::size_t view, double u, double v, const Extent& extent) const override {
     const Eigen::Vector3d& up = list[view].to_sensor;
     const double height = reference == Reference::top      ? extent.top_m

@@ -4,6 +4,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "scene/intersect/intersector.h"
@@ -26,6 +27,8 @@ class Sensor {
 
   virtual std::size_t views() const = 0;
   virtual Ray start(std::size_t view, double u, double v, const Extent& extent) const = 0;
+  // Towards the sensor, where all rays of the view are parallel and start above the scene.
+  virtual std::optional<Eigen::Vector3d> parallel(std::size_t) const { return std::nullopt; }
   // Towards the sensor, in degrees as the file writes them; NaN for a pixel.
   virtual double vza_deg(std::size_t view) const = 0;
   virtual double vaa_deg(std::size_t view) const = 0;

@@ -34,8 +34,8 @@ class ViewState {
 
   void trace(const Run& run, const Sensor& sensor, std::size_t batch) {
     const ViewKey key{run.seed, run.sensor_index, view};
-    trace_paths(*stage_, sensor, view, PathNumbers(key, static_cast<std::uint32_t>(batch)), done, goal,
-                tallies[batch]);
+    trace_paths(*stage_, sensor, view, view_rays.get(), PathNumbers(key, static_cast<std::uint32_t>(batch)),
+                done, goal, tallies[batch]);
   }
   bool has_all_batches() const {
     return std::all_of(tallies.begin(), tallies.end(), [](const Tally& t) { return t.counts.paths > 0; });
@@ -58,6 +58,15 @@ class ViewState {
       goal = done;
     }
   }
+  // A grid for this view's first hits costs as much as some 3e5 of its rays through the intersector.
+  void prepare(const Sensor& sensor) {
+    constexpr std::uint64_t worth_a_grid = 400'000, most_bytes = std::uint64_t{1} << 27;
+    const std::uint64_t planned = std::max(goal * batches, stage_->simulation->sampling.samples);
+    if (asked_for_rays_ || planned < worth_a_grid) return;
+    asked_for_rays_ = true;
+    if (const auto towards = sensor.parallel(view))
+      view_rays = stage_->intersector->parallel_rays(stage_->simulation->scene, *towards, most_bytes);
+  }
   void finish(SensorResult& result) const {
     std::vector<const ViewCounts*> counts;
     for (const Tally& tally : tallies) counts.push_back(&tally.counts);
@@ -66,11 +75,13 @@ class ViewState {
 
  private:
   const Stage* stage_;
+  bool asked_for_rays_ = false;
 
  public:
   std::size_t view;
   std::uint64_t done = 0, goal = 0;  // paths a batch
   std::vector<Tally> tallies;
+  std::shared_ptr<const ParallelRays> view_rays;  // made when there are paths enough to pay for it
 };
 
 template <class Tally>
@@ -98,6 +109,7 @@ void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t la
   std::vector<ViewState<Tally>*> active;
   for (auto& state : views) active.push_back(&state);
   while (!active.empty() && !interrupted()) {
+    parallel_for(active.size(), [&](std::size_t i) { active[i]->prepare(sensor); });
     parallel_for(active.size() * batches, [&](std::size_t i) {
       ViewState<Tally>& state = *active[i / batches];
       state.trace(run, sensor, i % batches);
@@ -142,8 +154,7 @@ void run_views(Run& run, const Sensor& sensor, int orders, SensorResult& result)
   if (sensor.is_image()) return run_pixels<Tally>(run, sensor, result);
   // Groups bound the memory of tallies; each gets its share of the time.
   const bool counting = run.stage->optics.counts_interactions();
-  const std::size_t group =
-      counting ? std::max<std::size_t>(1, static_cast<std::size_t>(threads()) / 8) : 128;
+  const std::size_t group = counting ? std::max<std::size_t>(1, static_cast<std::size_t>(threads()) / 8) : 8;
   const Clock::time_point start = Clock::now(), end = run.deadline;
   for (std::size_t first = 0; first < sensor.views() && !interrupted(); first += group) {
     const std::size_t last = std::min(sensor.views(), first + group);

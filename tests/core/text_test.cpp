@@ -53,6 +53,12 @@ TEST(Text, NearestWord) {
   EXPECT_EQ(edit_distance("ab", "ba"), 1);
 }
 
+TEST(Text, AnErrorIsOneLineWhateverItQuotes) {
+  const Error error(bad_input, {"a\nb.csv", 2, 3}, "no column 'x'" + did_you_mean("x", {"y\nz", "\tq"}));
+  EXPECT_EQ(std::string(error.what()), "a\\x0ab.csv:2:3: no column 'x'; known: y\\x0az, \\x09q");
+  EXPECT_EQ(error.message(), "no column 'x'; known: y\\x0az, \\x09q");
+}
+
 TEST(Text, LengthsSayTheirUnit) {
   EXPECT_DOUBLE_EQ(parse_length("25mm", {}), 0.025);
   EXPECT_DOUBLE_EQ(parse_length("0.1 cm", {}), 0.001);

@@ -46,10 +46,12 @@ void prepare(const test::TemporaryFolder& folder) {
   points += "1,1,1,leaf,midrib,4,a,left,1200,600,0.5\n1,1,1,leaf,midrib,4,a,right,400,604,0.5\n";
   folder.write("points.csv", points);
   std::string pot = header;
+  const Eigen::Vector3d across(1, 0, 0), away = Eigen::Vector3d(0, 0.1, 1).normalized();
   for (int i = 0; i < 12; ++i) {
     const double angle = pi * (i / 11.0 - 1);
-    pot += rows(rig, "1,1,0,pot,outline", i,
-                {0.08 * std::cos(angle), 0.1 + 0.1 * 0.08 * std::sin(angle), 1.5 + 0.08 * std::sin(angle)});
+    const Eigen::Vector3d x =
+        Eigen::Vector3d(0, 0.1, 1.5) + 0.08 * (std::cos(angle) * across + std::sin(angle) * away);
+    pot += rows(rig, "1,1,0,pot,outline", i, x);
   }
   folder.write("pot.csv", pot);
   RgbImage picture{1600, 1300, std::vector<std::uint8_t>(std::size_t{3} * 1600 * 1300, 90)};
@@ -84,14 +86,16 @@ TEST(Command, VectorsFrameAndReport) {
   EXPECT_NEAR(report["rejected"][0]["chi2"].get<double>(), 4 * 4 / (2 * 0.25), 2.0);
   EXPECT_LT(report["reprojection_rms_px"].get<double>(), 1e-6);
   ASSERT_EQ(report["curves"].size(), 2u);
-  const Json& point = report["curves"][0]["points"][1];
-  EXPECT_EQ(report["curves"][0]["organ"], "leaf");
+  const Json& point = report["curves"][1]["points"][1];
+  EXPECT_EQ(report["curves"][1]["organ"], "leaf");
   EXPECT_EQ(point["sigma_m"].size(), 3u);
   EXPECT_NEAR(point["digitised"]["left"][0].get<double>(), point["reprojected"]["left"][0].get<double>(),
               1e-6);
   EXPECT_EQ(report["figures"][0]["name"], "pot rim diameter");
-  EXPECT_NEAR(report["figures"][0]["value"].get<double>(), 0.16 * std::sqrt(1.0), 2e-3);
+  EXPECT_NEAR(report["figures"][0]["value"].get<double>(), 0.16, 1e-6);
   EXPECT_GT(report["figures"][0]["sigma"].get<double>(), 0);
+  EXPECT_EQ(report["vertical_m"], (Json{0.0, 0.0, 1.0}));
+  EXPECT_LT(report["towards_cameras"][1].get<double>(), -0.9);  // the cameras look along +y
   EXPECT_EQ(report["photographs"][0]["camera"], "left");
   EXPECT_EQ(report["photographs"][0]["view"], "a");
   EXPECT_EQ(report["photographs"][0]["height"], 1300);
@@ -113,6 +117,15 @@ TEST(Command, VectorsGoToStandardOutput) {
              alone = read_vectors(folder.write("d.csv", digitising.out));
   EXPECT_EQ(total[1].x_m, alone[1].x_m);
   EXPECT_GT(total[1].covariance_m2.trace(), alone[1].covariance_m2.trace());
+}
+
+TEST(Command, ANameInLatin1DoesNotCostTheReport) {
+  const test::TemporaryFolder folder;
+  prepare(folder);
+  folder.write("latin.csv", header + rows(test::parallel_rig(), "bl\xe9,1,1,leaf,midrib", 1, {0, 0, 1.5}));
+  const Outcome run = bpms(folder, "reconstruct latin.csv --rig rig.toml --json");
+  ASSERT_EQ(run.code, 0) << run.error;
+  EXPECT_EQ(Json::parse(run.out)["curves"][0]["plant"], "bl\xef\xbf\xbd");
 }
 
 TEST(Command, RefusalsEndWithOneLineAndTheirCode) {

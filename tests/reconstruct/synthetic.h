@@ -117,7 +117,7 @@ inline std::vector<Sighting> sight(const Rig& rig, const Eigen::Vector3d& x, dou
 }
 
 inline Eigen::Vector3d somewhere(Philox& random) {
-  return {random.uniform(-0.15, 0.15), random.uniform(-0.1, 0.1), random.uniform(1.3, 1.7)};
+  return {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(1.3, 1.7)};
 }
 
 // Points.csv rows as read: label rank 1 leaf midrib, point `number`, line number + 2.

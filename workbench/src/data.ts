@@ -93,6 +93,7 @@ export const reconstruct = object({
     }),
   ),
   vertical_m: numbers,
+  towards_cameras: numbers,
 });
 export type Reconstruct = Infer<typeof reconstruct>;
 

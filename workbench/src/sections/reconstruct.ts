@@ -18,6 +18,11 @@ function position(p: Curve["points"][number]): Point3 | null {
   return p.x_m === null || p.y_m === null || p.z_m === null ? null : [p.x_m, p.y_m, p.z_m];
 }
 
+function triple(of: readonly (number | null)[]): Point3 | null {
+  const [x, y, z] = of;
+  return typeof x === "number" && typeof y === "number" && typeof z === "number" ? [x, y, z] : null;
+}
+
 function photographs(r: Reconstruct, names: Organs, s: Section): void {
   if (r.photographs.length === 0) return;
   s.figure(
@@ -31,13 +36,14 @@ function photographs(r: Reconstruct, names: Organs, s: Section): void {
 function space(r: Reconstruct, names: Organs, s: Section): void {
   const used = r.curves.map((c) => ({ c, points: c.points.filter((p) => !p.rejected).flatMap((p) => [position(p)]).filter((p) => p !== null) }));
   if (!used.some((u) => u.points.length > 1)) return;
-  const [x, y, z] = r.vertical_m;
-  const vertical: Point3 | null = typeof x === "number" && typeof y === "number" && typeof z === "number" ? [x, y, z] : null;
+  const vertical = triple(r.vertical_m);
+  const up: Point3 = vertical ?? [0, -1, 0];
+  const towards: Point3 = triple(r.towards_cameras) ?? [0, 0, -1];
   const scene = scene3d({
     curves: used.map(({ c, points }) => ({ label: names.full(c), colour: names.colour(c), points, width: /midrib|axis/.test(c.feature ?? "axis") ? 3 : 1.3 })),
     dots: used.map(({ c, points }) => ({ points, colour: names.colour(c), size: 5 })),
-    up: vertical ?? [0, -1, 0],
-    viewFrom: vertical ? [vertical[0] * 0.35 + 0.1, vertical[1] * 0.35, vertical[2] * 0.35 - 1] : [0.25, -0.35, -1],
+    up,
+    viewFrom: [towards[0] + 0.35 * up[0] + 0.1, towards[1] + 0.35 * up[1], towards[2] + 0.35 * up[2]],
     height: 540,
   });
   s.figure("curves", scene.element, `The curves in space, seen from the side of the cameras${vertical ? "; the vertical is the measured one" : "; up is the first camera's up"}.`, scene.start);

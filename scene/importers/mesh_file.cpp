@@ -1,0 +1,96 @@
+#include "scene/importers/mesh_file.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "core/error.h"
+
+namespace bpms {
+namespace {
+
+bool says_leaf(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return name.find("leaf") != std::string::npos;
+}
+
+class Reader {
+ public:
+  Reader(const std::string& path, double unit, bool y_up) : path_(path), unit_(unit), y_up_(y_up) {}
+
+  Mesh read() {
+    if (!std::filesystem::exists(path_)) fail(ErrorKind::missing_resource, {path_}, "no such file");
+    Assimp::Importer importer;
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    file_ = importer.ReadFile(
+        path_, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+    if (file_ == nullptr)
+      bad_input({path_}, "cannot be read as a mesh: {}", in_quotes(importer.GetErrorString()));
+    for (unsigned m = 0; m < file_->mNumMeshes; ++m) {
+      normals_ = normals_ && file_->mMeshes[m]->HasNormals();
+      uv_ = uv_ && file_->mMeshes[m]->HasTextureCoords(0);
+    }
+    add_node(*file_->mRootNode, aiMatrix4x4());
+    if (mesh_.triangles.empty()) bad_input({path_}, "no triangles");
+    return std::move(mesh_);
+  }
+
+ private:
+  Eigen::Vector3f turned(const aiVector3D& v) const {
+    return y_up_ ? Eigen::Vector3f(v.x, -v.z, v.y) : Eigen::Vector3f(v.x, v.y, v.z);
+  }
+
+  void add_node(const aiNode& node, const aiMatrix4x4& parent) {
+    const aiMatrix4x4 transform = parent * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) add_mesh(*file_->mMeshes[node.mMeshes[i]], transform);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], transform);
+  }
+
+  void add_mesh(const aiMesh& part, const aiMatrix4x4& transform) {
+    const auto first = static_cast<std::uint32_t>(mesh_.positions_m.size());
+    const aiMatrix3x3 rotation(transform);
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const Eigen::Vector3f p = turned(transform * part.mVertices[v]) * static_cast<float>(unit_);
+      if (!p.allFinite()) bad_input({path_}, "vertex {} is not finite", v);
+      mesh_.positions_m.push_back(p);
+      if (normals_) mesh_.normals.push_back(turned(rotation * part.mNormals[v]).normalized());
+      if (uv_) mesh_.uv.emplace_back(part.mTextureCoords[0][v].x, part.mTextureCoords[0][v].y);
+    }
+    Mesh::Organ organ;
+    organ.id = static_cast<int>(mesh_.organs.size());
+    organ.label = part.mName.C_Str();
+    if (part.mMaterialIndex < file_->mNumMaterials)
+      organ.material = file_->mMaterials[part.mMaterialIndex]->GetName().C_Str();
+    if (organ.material == "DefaultMaterial") organ.material.clear();  // Assimp's word for none
+    organ.kind = says_leaf(organ.material) || says_leaf(organ.label) ? "leaf" : "mesh";
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      mesh_.triangles.push_back(
+          {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+      mesh_.organ_of_triangle.push_back(static_cast<std::uint32_t>(mesh_.organs.size()));
+      organ.area_m2 += triangle_area_m2(mesh_, mesh_.triangles.size() - 1);
+    }
+    mesh_.organs.push_back(std::move(organ));
+  }
+
+  const std::string& path_;
+  double unit_;
+  bool y_up_;
+  const aiScene* file_ = nullptr;
+  bool normals_ = true, uv_ = true;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Mesh> read_mesh_file(const std::string& path, double metres_per_unit, bool y_up) {
+  return std::make_shared<const Mesh>(Reader(path, metres_per_unit, y_up).read());
+}
+
+}  // namespace bpms

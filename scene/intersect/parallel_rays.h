@@ -1,0 +1,70 @@
+// Rays that all run the same way: towards the sun, or of an orthographic view. Seen along their direction the
+// scene is flat: each disc is an ellipse in the plane of (u, v) = (x - z dx/dz, y - z dy/dz), where a ray is
+// a point. A grid over that plane lists the ellipses that touch each square, highest first; a ray looks
+// through one short list instead of walking down a hierarchy. The answers are those of the Intersector to
+// float rounding. Periodic cells wrap in (u, v). For discs and the ground plane; scenes with meshes have none
+// (see make).
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "scene/intersect/intersector.h"
+
+namespace bpms {
+
+class TracedScene;
+
+class ParallelRays {
+ public:
+  // Null where the scene does not suit: meshes, discs wider than half a periodic cell, more than
+  // `most_bytes`. `towards`: unit, z > 0; from the scene to the sun or the sensor.
+  static std::unique_ptr<ParallelRays> make(const TracedScene& traced, const Scene& scene,
+                                            const Eigen::Vector3d& towards, std::uint64_t most_bytes);
+
+  // Is there anything between a point of the surface `from` and infinity?
+  bool occluded(const Eigen::Vector3f& point, const SurfaceId& from) const;
+  // The first hit of a ray that starts above the scene and runs along -towards, through `point`.
+  bool first(const Eigen::Vector3f& point, Hit& hit) const;
+
+  std::uint64_t memory_bytes() const;
+
+ private:
+  // Eight ellipses of one square, by component. Offsets from a disc's centre: du, dv. Inside the ellipse
+  // where q11 du^2 + q12 du dv + q22 dv^2 <= 1; there the disc's height is height + a du + b dv.
+  struct alignas(32) Block {
+    float u[8], v[8], q11[8], q12[8], q22[8], height[8], a[8], b[8];
+    std::uint32_t id[8];
+    float top;  // of all of this block and those that follow in the square
+  };
+  struct Ellipse {
+    double u, v, height, a, b, q11, q12, q22, half_u, half_v, top;
+  };
+  struct Spot {
+    std::size_t square;
+    float u, v;  // from the square's low corner
+  };
+
+  ParallelRays(const TracedScene& traced, const Scene& scene, const Eigen::Vector3d& towards);
+  bool build(std::uint64_t most_bytes);
+  void lay_grid(const std::vector<Ellipse>& ellipses);
+  bool spot(double u, double v, Spot& out) const;
+  template <class Visit>
+  void squares_of(const Ellipse& ellipse, Visit visit) const;
+  static bool covers(const Block& block, float u, float v, float above, std::uint32_t skip);
+  static void heights(const Block& block, float u, float v, float* out);
+
+  const TracedScene* traced_;
+  const Scene* scene_;
+  Eigen::Vector3d towards_;
+  Eigen::Vector2d shear_;                // dx/dz, dy/dz
+  std::vector<std::uint32_t> first_id_;  // of each instance's discs
+  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d squares_m_ = Eigen::Vector2d::Ones();  // sides, which close on a periodic cell
+  long columns_ = 1, rows_ = 1;
+  std::vector<std::uint32_t> first_block_;  // of each square, and the end
+  std::vector<Block> blocks_;
+};
+
+}  // namespace bpms

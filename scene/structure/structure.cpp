@@ -1,0 +1,96 @@
+#include "scene/structure/structure.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "core/units.h"
+#include "scene/intersect/box.h"
+
+namespace bpms {
+namespace {
+
+// For the sums over facets a disc is a triangle of its area and normal; where it lies does not matter.
+Mesh disc_facets(const Prototype& prototype, const std::string& material) {
+  Mesh out;
+  out.organs.push_back({0, "discs", "leaf", material, 0, 0});
+  for (const Disc& disc : prototype.discs) {
+    const Eigen::Vector3d n = disc.normal.cast<double>();
+    const Eigen::Vector3d a = n.unitOrthogonal();
+    const Eigen::Vector3d b = n.cross(a);
+    // An equilateral triangle of circumradius R has the area 3 sqrt(3) / 4 R^2.
+    const double r = disc.radius_m;
+    const double circumradius = r * std::sqrt(pi / (0.75 * std::sqrt(3.0)));
+    const auto first = static_cast<std::uint32_t>(out.positions_m.size());
+    for (int k = 0; k < 3; ++k) {
+      const double t = 2 * pi * k / 3;
+      out.positions_m.push_back((circumradius * (std::cos(t) * a + std::sin(t) * b)).cast<float>());
+      out.normals.push_back(disc.normal);
+    }
+    out.triangles.push_back({first, first + 1, first + 2});
+    out.organ_of_triangle.push_back(0);
+    out.organs[0].area_m2 += pi * r * r;
+  }
+  return out;
+}
+
+double nearest_g(const FacetStructure& facets, double zenith_deg) {
+  for (const auto& point : facets.g_function)
+    if (std::abs(point.zenith_deg - zenith_deg) < 1e-9) return point.g;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+CanopyStructure canopy_structure(const Scene& scene, const GapOptions& options) {
+  CanopyStructure out;
+  std::vector<double> area_factor(scene.prototypes.size(), 0), height_factor(scene.prototypes.size(), 0);
+  Box box;
+  std::vector<Box> own;
+  for (const Prototype& prototype : scene.prototypes) own.push_back(bounds(prototype));
+  for (const Instance& instance : scene.instances) {
+    area_factor[instance.prototype] += instance.scale * instance.scale;
+    height_factor[instance.prototype] = std::max(height_factor[instance.prototype], instance.scale);
+    box.include(bounds(own[instance.prototype], instance));
+  }
+  std::vector<Mesh> discs;
+  discs.reserve(scene.prototypes.size());
+  std::vector<WeightedMesh> meshes;
+  for (std::size_t p = 0; p < scene.prototypes.size(); ++p) {
+    const Prototype& prototype = scene.prototypes[p];
+    if (area_factor[p] == 0) continue;
+    if (!prototype.discs.empty()) {
+      const std::string& material = scene.materials[prototype.disc_material];
+      discs.push_back(disc_facets(prototype, material));
+      meshes.push_back({&discs.back(), area_factor[p], height_factor[p]});
+      out.material_area_m2[material] += discs.back().organs[0].area_m2 * area_factor[p];
+    }
+    if (prototype.mesh) {
+      meshes.push_back({prototype.mesh.get(), area_factor[p], height_factor[p]});
+      for (std::size_t k = 0; k < prototype.mesh->organs.size(); ++k)
+        out.material_area_m2[scene.materials[prototype.material_of_organ[k]]] +=
+            prototype.mesh->organs[k].area_m2 * area_factor[p];
+    }
+  }
+  const double ground_m = scene.ground  ? scene.ground->height_m
+                          : box.empty() ? 0
+                                        : std::min(0.0, box.low.z());
+  if (!box.empty()) out.height_m = box.high.z() - (scene.ground ? ground_m : 0.0);
+  out.facets = facet_structure(meshes, usual_zenith_angles_deg());
+  const Footprint footprint(scene);
+  out.ground_area_m2 = footprint.area_m2();
+  out.ground_is_domain = footprint.is_domain();
+  if (!(out.ground_area_m2 > 0)) return out;
+  out.lai = out.facets.total_leaf_area_m2 / out.ground_area_m2;
+  const Intersector intersector(scene);
+  out.gaps = gap_fraction(intersector, footprint, ground_m, usual_gap_angles_deg(), options);
+  for (const Gap& gap : out.gaps) {
+    const double g = nearest_g(out.facets, gap.zenith_deg);
+    if (!(gap.p > 0) || !(g * out.lai > 0)) continue;
+    const double scale = std::cos(radians(gap.zenith_deg)) / (g * out.lai);
+    out.clumping.push_back({gap.zenith_deg, -std::log(gap.p) * scale, gap.standard_error / gap.p * scale});
+  }
+  return out;
+}
+
+}  // namespace bpms

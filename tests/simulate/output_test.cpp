@@ -1,0 +1,93 @@
+// Files as others read them.
+#include <gmock/gmock.h>
+
+#include <cstdio>
+
+#include "core/csv.h"
+#include "simulate/output/output.h"
+#include "tests/simulate/scene_text.h"
+
+namespace bpms::test {
+namespace {
+
+const std::string scene_text = R"(
+[domain]
+size_m = [2.0, 2.0]
+[materials.soil]
+type = "lambertian"
+reflectance = [[400, 0.1], [900, 0.3]]
+[ground]
+type = "plane"
+material = "soil"
+[illumination]
+sun = { zenith_deg = 40.0, azimuth_deg = 120.0, irradiance = "brf" }
+[[sensors]]
+name = "pp"
+type = "brf"
+plane = "principal"
+vza_deg = [-30.0, 0.0, 30.0]
+[bands]
+wavelengths_nm = [650.0, 850.0]
+[sampling]
+samples = 64
+)";
+
+std::string output_of(const std::string& command) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::string out;
+  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) out += static_cast<char>(c);
+  pclose(pipe);
+  return out;
+}
+
+TEST(Output, CsvHasTheColumnsOfTheContract) {
+  const TemporaryFolder folder;
+  const Simulation scene = simulation_of(folder, scene_text);
+  const Result result = simulate(scene, 1);
+  const CsvTable table = CsvTable::parse("out.csv", result_csv(scene, result));
+  const std::vector<std::string> expected{"quantity", "sensor",   "band",    "wavelength_nm", "sza_deg",
+                                          "saa_deg",  "vza_deg",  "vaa_deg", "origin",        "component",
+                                          "order",    "material", "value",   "standard_error"};
+  EXPECT_EQ(table.columns(), expected);
+  int totals = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, 0) != "brf" || table.text(row, 9) != "all" || !table.empty(row, 10)) continue;
+    ++totals;
+    EXPECT_EQ(table.text(row, 8), "total");
+    EXPECT_NEAR(table.number(row, 12), table.number(row, 3) == 650 ? 0.2 : 0.28, 1e-6);
+    EXPECT_EQ(table.number(row, 7), 300);
+  }
+  EXPECT_EQ(totals, 6);
+}
+
+TEST(Output, NetcdfOpensInXarrayWithNamedCoordinates) {
+  const TemporaryFolder folder;
+  if (output_of("/usr/bin/python3 -c 'import xarray, netCDF4; print(1)'") != "1\n")
+    GTEST_SKIP() << "needs python3-xarray, python3-netcdf4";
+  const Simulation scene = simulation_of(folder, scene_text);
+  write_netcdf(scene, simulate(scene, 1), {"bpms simulate", 1, {}}, folder / "out.nc", false);
+  const std::string said =
+      output_of("/usr/bin/python3 -c 'import xarray as x; d = x.open_dataset(\"" + folder / "out.nc" +
+                "\"); print(d.brf.dims, d.brf.shape, sorted(d.brf.coords), d.vza.units, d.wavelength.units, "
+                "[float(v) for v in d.vza.values], "
+                "round(float(d.brf[1, 0]), 5), float(d.brf_se[1, 0]) < 1e-6, d.attrs[\"stopped_by\"], "
+                "d.brf_by_component.dims)'");
+  EXPECT_EQ(said,
+            "('view', 'band') (3, 2) ['vaa', 'vza', 'wavelength'] degree nm [-30.0, 0.0, 30.0] 0.2 True "
+            "samples ('view', 'band', 'component')\n");
+}
+
+TEST(Output, ReportHasTheKeysOfTheContract) {
+  const TemporaryFolder folder;
+  const Simulation scene = simulation_of(folder, scene_text);
+  const Json report = result_report(scene, simulate(scene, 3));
+  for (const char* key : {"sensors", "samples", "seconds", "rays", "threads", "stopped_by", "seed", "version",
+                          "series", "spectra", "images"})
+    EXPECT_TRUE(report.contains(key)) << key;
+  EXPECT_EQ(report["samples"], 3 * 64);
+  EXPECT_EQ(report["seed"], 3);
+  EXPECT_EQ(report["series"][0]["vza_deg"].size(), 3u);
+}
+
+}  // namespace
+}  // namespace bpms::test
