@@ -135,7 +135,9 @@ long long CsvTable::integer(std::size_t row, int column) const {
 }
 
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  // The reader trims what is not quoted.
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos && trimmed(text) == text)
+    return std::string(text);
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"') out += '"';

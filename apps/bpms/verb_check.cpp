@@ -61,7 +61,6 @@ const std::vector<FileKind>& kinds() {
          return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
        },
        check_canopy},
-      {".bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); }, check_plant},
       {"rig.toml",
        [](const std::string&, std::string_view head) {
          return head.find("[[cameras]]") != std::string_view::npos;
@@ -72,16 +71,12 @@ const std::vector<FileKind>& kinds() {
          return head.find("square_m") != std::string_view::npos;
        },
        [](const std::string& path) { return fmt::format("{} corners", read_board(path).size()); }},
-      {"canopy.toml",
-       [](const std::string& path, std::string_view head) {
-         return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
-       },
-       check_canopy},
       {"scene.toml",
        [](const std::string& path, std::string_view head) {
          if (!path.ends_with(".toml")) return false;
-         for (const char* table : {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
-           if (head.find(table) != std::string_view::npos) return true;
+         for (const char* word :
+              {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
+           if (head.find(word) != std::string_view::npos) return true;
          return false;
        },
        check_scene},

@@ -37,7 +37,8 @@ TEST(Csv, ErrorsNameLineAndColumn) {
 }
 
 TEST(Csv, FieldsRoundTrip) {
-  for (const std::string text : {"plain", "with, comma", "with \"quotes\"", "two\nlines", ""}) {
+  for (const std::string text :
+       {"plain", "with, comma", "with \"quotes\"", "two\nlines", " blanks ", "\t", ""}) {
     const CsvTable table = CsvTable::parse("t.csv", "a,b\n" + csv_field(text) + ",1\n");
     EXPECT_EQ(table.text(0, 0), text);
   }
