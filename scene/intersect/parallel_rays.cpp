@@ -78,7 +78,7 @@ bool ParallelRays::build(std::uint64_t most_bytes) {
       ++entries;
     });
   }
-  if (entries * sizeof(Block) / 8 > most_bytes || entries > 0xffffffffull) return false;
+  if (entries * sizeof(Block) / wide > most_bytes || entries > 0xffffffffull) return false;
   for (std::size_t s = 1; s < listed.size(); ++s) listed[s] += listed[s - 1];
   std::vector<std::uint32_t> list(entries), at(listed.begin(), listed.end() - 1);
   for (std::uint32_t id = 0; id < ellipses.size(); ++id)
@@ -96,9 +96,9 @@ bool ParallelRays::build(std::uint64_t most_bytes) {
     const long row = tile_number / tiles_across_ * tile + within / tile;
     const double corner_u = low_.x() + static_cast<double>(column) * squares_m_.x();
     const double corner_v = low_.y() + static_cast<double>(row) * squares_m_.y();
-    for (auto from = begin; from < end; from += 8) {
+    for (auto from = begin; from < end; from += wide) {
       Block block{};
-      for (int k = 0; k < 8; ++k) {
+      for (int k = 0; k < wide; ++k) {
         if (end - from <= k) {
           block.q11[k] = block.q22[k] = 1e30f;
           block.u[k] = block.v[k] = -1e3f;
@@ -204,7 +204,7 @@ __attribute__((target_clones("avx2", "default"))) bool ParallelRays::covers(cons
                                                                             float v, float above,
                                                                             std::uint32_t skip) {
   int any = 0;
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < wide; ++k) {
     const float du = u - block.u[k], dv = v - block.v[k];
     const float inside = block.q11[k] * du * du + block.q12[k] * du * dv + block.q22[k] * dv * dv;
     const float height = block.height[k] + block.a[k] * du + block.b[k] * dv;
@@ -216,7 +216,7 @@ __attribute__((target_clones("avx2", "default"))) bool ParallelRays::covers(cons
 
 __attribute__((target_clones("avx2", "default"))) void ParallelRays::heights(const Block& block, float u,
                                                                              float v, float* out) {
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < wide; ++k) {
     const float du = u - block.u[k], dv = v - block.v[k];
     const float inside = block.q11[k] * du * du + block.q12[k] * du * dv + block.q22[k] * dv * dv;
     const float height = block.height[k] + block.a[k] * du + block.b[k] * dv;
@@ -250,9 +250,9 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
     for (std::uint32_t b = first_block_[at.square]; b < first_block_[at.square + 1]; ++b) {
       const Block& block = blocks_[b];
       if (block.top <= height) break;
-      float found[8];
+      float found[wide];
       heights(block, at.u, at.v, found);
-      for (int k = 0; k < 8; ++k)
+      for (int k = 0; k < wide; ++k)
         if (found[k] > height) height = found[k], id = block.id[k];
     }
   }

@@ -34,11 +34,12 @@ class ParallelRays {
   std::uint64_t memory_bytes() const;
 
  private:
-  // Eight ellipses of one square, by component. Offsets from a disc's centre: du, dv. Inside the ellipse
+  // Four ellipses of one square, by component. Offsets from a disc's centre: du, dv. Inside the ellipse
   // where q11 du^2 + q12 du dv + q22 dv^2 <= 1; there the disc's height is height + a du + b dv.
+  static constexpr int wide = 4;
   struct alignas(32) Block {
-    float u[8], v[8], q11[8], q12[8], q22[8], height[8], a[8], b[8];
-    std::uint32_t id[8];
+    float u[wide], v[wide], q11[wide], q12[wide], q22[wide], height[wide], a[wide], b[wide];
+    std::uint32_t id[wide];
     float top;  // of all of this block and those that follow in the square
   };
   struct Ellipse {
