@@ -1,10 +1,9 @@
 // Efficiency of the radiative transfer: variance x seconds at nadir on the homogeneous disc canopy, both
-// bands carried, one thread (processor time), beside a plain tracer on the same scene in the same run. Prints ratios, which
-// hold on noisy machines.
+// bands carried, one thread (processor time), beside a plain tracer on the same scene in the same run. Prints
+// ratios, which hold on noisy machines.
 //   bench_radiative_transfer DATA_FOLDER [PATHS [REPEATS]]
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 
@@ -15,9 +14,11 @@
 
 namespace {
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+// Of efficiencies: the estimate of a variance from 32 batches is off by 18 %, and so is each value's.
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ int main(int argc, char** argv) {
   Simulation simulation = bench::homogeneous(argv[1], {0.0});
   simulation.sampling.samples = paths;
   const Intersector intersector(simulation.scene);
-  std::vector<double> plain, ours, ratio;
+  std::vector<double> plain, ours;
   for (int r = 0; r < repeats; ++r) {
     const auto seed = static_cast<std::uint64_t>(r + 1);
     const bench::PlainResult yardstick = bench::trace_plainly(simulation, 0.0, paths, seed);
@@ -45,7 +46,6 @@ int main(int argc, char** argv) {
     const Estimates& total = result.sensors[0].radiance[0];
     plain.push_back(yardstick.variance[1] / static_cast<double>(paths) * yardstick.seconds);
     ours.push_back(total.standard_error[1] * total.standard_error[1] * seconds);
-    ratio.push_back(plain.back() / ours.back());
     fmt::print(
         "plain {:.6f} +- {:.6f} in {:.2f} s   bpms {:.6f} +- {:.6f} in {:.2f} s ({} paths, {:.2f} M "
         "rays/s)\n",
@@ -53,6 +53,6 @@ int main(int argc, char** argv) {
         total.value[1], total.standard_error[1], seconds, result.samples,
         static_cast<double>(result.rays) / seconds / 1e6);
   }
-  fmt::print("NIR nadir, variance x seconds: plain {:.2e}, bpms {:.2e}, ratio {:.2f} (medians of {})\n",
-             median(plain), median(ours), median(ratio), repeats);
+  fmt::print("NIR nadir, variance x seconds: plain {:.2e}, bpms {:.2e}, ratio {:.2f} (means of {} runs)\n",
+             mean(plain), mean(ours), mean(plain) / mean(ours), repeats);
 }

@@ -45,14 +45,28 @@ struct CurveResiduals {
 
   LeafModel& model;
   const std::vector<LeafObservation>& observations;
+  Eigen::VectorXd held;           // the model's first parameters
   mutable std::vector<double> l;  // places at the last accepted parameters
 
   int NumResiduals() const { return static_cast<int>(3 * observations.size()); }
-  int NumParameters() const { return model.parameters(); }
+  int NumParameters() const { return model.parameters() - static_cast<int>(held.size()); }
 
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
-    const Eigen::Index rows = NumResiduals();
-    model.set(Eigen::Map<const Eigen::VectorXd>(parameters, NumParameters()), jacobian != nullptr);
+    Eigen::VectorXd all(model.parameters());
+    all << held, Eigen::Map<const Eigen::VectorXd>(parameters, NumParameters());
+    if (jacobian == nullptr) {
+      evaluate(all, residuals, nullptr);
+      return true;
+    }
+    Eigen::MatrixXd by_all(NumResiduals(), model.parameters());
+    evaluate(all, residuals, &by_all);
+    Eigen::Map<Eigen::MatrixXd>(jacobian, NumResiduals(), NumParameters()) =
+        by_all.rightCols(NumParameters());
+    return true;
+  }
+
+  void evaluate(const Eigen::VectorXd& all, double* residuals, Eigen::MatrixXd* jacobian) const {
+    model.set(all, jacobian != nullptr);
     LeafModel::Point point;
     for (std::size_t k = 0; k < observations.size(); ++k) {
       const LeafObservation& o = observations[k];
@@ -63,15 +77,13 @@ struct CurveResiduals {
       Eigen::Map<Eigen::Vector3d>(residuals + row) = root * (o.whitening * (point.x - o.x));
       if (jacobian == nullptr) continue;
       l[k] = place;
-      Eigen::Map<Eigen::MatrixXd> out(jacobian, rows, NumParameters());
       Eigen::Matrix3Xd j = root * (o.whitening * point.jacobian);
       if (o.place_free && place > 0 && place < 1) {
         const Eigen::Vector3d tangent = (o.whitening * point.tangent).normalized();
         j -= tangent * (tangent.transpose() * j);
       }
-      out.middleRows(row, 3) = j;
+      jacobian->middleRows(row, 3) = j;
     }
-    return true;
   }
 };
 
@@ -102,8 +114,8 @@ bool invert_normal_matrix(const Eigen::MatrixXd& jacobian, Eigen::MatrixXd& inve
 }  // namespace
 
 CurveSolution solve_curves(LeafModel& model, const std::vector<LeafObservation>& observations,
-                           const Eigen::VectorXd& start) {
-  CurveResiduals function{model, observations, {}};
+                           const Eigen::VectorXd& start, int held) {
+  CurveResiduals function{model, observations, start.head(held), {}};
   for (const LeafObservation& o : observations) function.l.push_back(o.l);
   ceres::TinySolver<CurveResiduals> solver;
   solver.options.max_num_iterations = 200;
@@ -112,16 +124,17 @@ CurveSolution solve_curves(LeafModel& model, const std::vector<LeafObservation>&
   solver.options.parameter_tolerance = 1e-11;
   solver.options.function_tolerance = 1e-14;
   solver.options.cost_threshold = 1e-26;
-  Eigen::VectorXd parameters = start;
+  Eigen::VectorXd parameters = start.tail(start.size() - held);
   solver.Solve(function, &parameters);
 
   CurveSolution out;
   const auto rows = static_cast<Eigen::Index>(3 * observations.size());
   Eigen::VectorXd residuals(rows);
-  Eigen::MatrixXd jacobian(rows, model.parameters());
-  function(parameters.data(), residuals.data(), jacobian.data());
-  out.parameters = parameters;
-  out.full_rank = invert_normal_matrix(jacobian, out.covariance);
+  out.parameters = start;
+  out.parameters.tail(parameters.size()) = parameters;
+  out.jacobian.resize(rows, model.parameters());
+  function.evaluate(out.parameters, residuals.data(), &out.jacobian);
+  out.full_rank = invert_normal_matrix(out.jacobian.rightCols(parameters.size()), out.covariance);
   out.converged = solver.summary.status != ceres::TinySolver<CurveResiduals>::HIT_MAX_ITERATIONS &&
                   residuals.allFinite() && parameters.allFinite();
   out.l = function.l;

@@ -23,17 +23,19 @@ struct LeafObservation {
 
 struct CurveSolution {
   Eigen::VectorXd parameters;
-  Eigen::MatrixXd covariance;     // (J'J)^-1, not scaled
+  Eigen::MatrixXd jacobian;       // whitened, off the tangents, by all parameters
+  Eigen::MatrixXd covariance;     // (J'J)^-1 of the free parameters, not scaled
   std::vector<double> l;          // place of each observation
   std::vector<double> distance2;  // |W (x - X(l))|^2, also of those left out
   double chi2 = 0;                // weighted sum
   int residuals = 0;              // numbers that count: dimensions less places, of the observations used
   bool converged = false;
   bool full_rank = false;  // false: the covariance is a pseudo-inverse
-  int degrees_of_freedom() const { return residuals - static_cast<int>(parameters.size()); }
+  int degrees_of_freedom() const { return residuals - static_cast<int>(covariance.rows()); }
 };
 
+// The first `held` parameters stay as they are in `start`.
 CurveSolution solve_curves(LeafModel& model, const std::vector<LeafObservation>& observations,
-                           const Eigen::VectorXd& start);
+                           const Eigen::VectorXd& start, int held = 0);
 
 }  // namespace bpms

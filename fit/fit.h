@@ -45,17 +45,18 @@ struct OrganFit {
   std::map<std::string, FittedFunction>
       functions;  // inclination, azimuth, twist, width: those that were fitted
   std::map<std::string, std::vector<std::pair<FunctionChoice, double>>> aicc_table;
-  double chi2 = 0;
+  double chi2 = 0;  // of the midrib
   int degrees_of_freedom = 0;
-  bool errors_known = false;   // false: one sigma for all was estimated
-  double sigma_m = 0;          // that sigma
-  double variance_factor = 1;  // that the covariances were multiplied by: chi2 per degree of freedom above 1
-  std::optional<double> chi2_per_dof;     // absent when the errors are not known
-  std::vector<int> outliers;              // numbers of midrib points left out
-  std::vector<Eigen::Vector3d> points_m;  // the midrib as measured
-  std::vector<Eigen::Vector3d> fitted_m;  // the fitted midrib at equal steps of l
-  double rms_m = 0;                       // at equal normalised arc length, base anchored, length free
-  double width_m = 0, width_sigma_m = 0;  // largest full width; NaN without edges
+  bool errors_known = false;                // false: one sigma for all was estimated
+  double sigma_m = 0;                       // that sigma
+  double variance_factor = 1;               // that the midrib's covariances were multiplied by
+  std::optional<double> edge_chi2_per_dof;  // absent without edges or errors
+  std::optional<double> chi2_per_dof;       // absent when the errors are not known
+  std::vector<int> outliers;                // numbers of midrib points left out
+  std::vector<Eigen::Vector3d> points_m;    // the midrib as measured
+  std::vector<Eigen::Vector3d> fitted_m;    // the fitted midrib at equal steps of l
+  double rms_m = 0;                         // at equal normalised arc length, base anchored, length free
+  double width_m = 0, width_sigma_m = 0;    // largest full width; NaN without edges
   std::vector<std::string> notes;
   bool edges_swapped = false;  // left and right exchanged, so that the upper face looks at the stem
   bool ok() const { return failure.empty(); }

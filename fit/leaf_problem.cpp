@@ -221,10 +221,19 @@ bool edge_start(LeafProblem& problem, const LeafModel& solved_midrib, std::vecto
     solved_midrib.point(LeafCurve::midrib, o.l, false, point);
     const Eigen::Vector3d out =
         frame.transpose() * (o.x - point.x) * (o.curve == LeafCurve::edge_left ? 1.0 : -1.0);
+    // The edges may begin below the midrib's first visible point, or end beyond its last: nothing is known
+    // there.
+    constexpr double beyond = 0.03;
+    const double along_midrib = frame.col(2).dot(o.x - point.x);
+    if ((o.l <= 0 && along_midrib < -beyond) || (o.l >= 1 && along_midrib > beyond)) {
+      o.weight = 0;
+      continue;
+    }
     seen.push_back({o.l, std::atan2(-out.x(), out.y()), std::hypot(out.x(), out.y()), &o});
   }
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.l < b.l; });
   // The upper face looks at the stem at the base: the lower third decides which edge is which.
+  if (seen.empty()) return false;
   double up = 0;
   for (const Seen& s : seen) up += s.l <= seen.front().l + 1.0 / 3 ? s.half * std::cos(s.twist) : 0.0;
   const bool swapped = up < 0;

@@ -35,6 +35,7 @@ LeafModelShape leaf_shape(const LeafProblem& problem, FunctionChoice inclination
 // Start for the midrib's parameters from the directions of the polyline, smoothed to `pieces` of equal arc
 // length.
 Eigen::VectorXd midrib_start(const LeafProblem& problem, const LeafModel& model, int pieces);
+// Edge points beyond the midrib's ends lose their weight.
 // Fills in twist and width, and sets the edges' places, from a solved midrib; true when the edges had to be
 // swapped so that the upper side faces the stem at the base.
 bool edge_start(LeafProblem& problem, const LeafModel& solved_midrib, std::vector<double>& l,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/units.h"
 
@@ -52,8 +53,8 @@ LeafTrial solve_midrib(const LeafProblem& problem, FunctionChoice inclination, F
   return best;
 }
 
-LeafTrial solve_surface(const LeafProblem& problem, const LeafTrial& midrib, const EdgeStart& edges,
-                        FunctionChoice twist, FunctionChoice width) {
+LeafTrial solve_edges(const LeafProblem& problem, const LeafTrial& midrib, const EdgeStart& edges,
+                      FunctionChoice twist, FunctionChoice width) {
   LeafModelShape shape = midrib.model.shape();
   shape.twist = FunctionBasis(twist, true);
   shape.width = FunctionBasis(width, true);
@@ -62,13 +63,40 @@ LeafTrial solve_surface(const LeafProblem& problem, const LeafTrial& midrib, con
   const std::vector<double> ones(edges.l.size(), 1.0);
   start << midrib.solution.parameters, out.model.shape().twist.project(edges.l, edges.twist, ones),
       out.model.shape().width.project(edges.l, edges.width, ones);
-  std::vector<LeafObservation> all = problem.midrib;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (all[k].place_free) all[k].l = midrib.solution.l[k];
-  }
-  all.insert(all.end(), problem.edges.begin(), problem.edges.end());
-  out.solution = solve_curves(out.model, all, start);
+  out.solution = solve_curves(out.model, problem.edges, start, midrib.model.parameters());
   out.model.set(out.solution.parameters, false);
+  return out;
+}
+
+double variance_factor(double chi2, double degrees_of_freedom, bool errors_known) {
+  if (degrees_of_freedom <= 0) return errors_known ? 1.0 : std::numeric_limits<double>::quiet_NaN();
+  const double per_dof = chi2 / degrees_of_freedom;
+  return errors_known ? std::max(1.0, per_dof) : per_dof;
+}
+
+Eigen::MatrixXd midrib_covariance(const LeafProblem& problem, LeafTrial& midrib) {
+  const CurveSolution& s = midrib.solution;
+  midrib.variance_factor = variance_factor(s.chi2, s.degrees_of_freedom(), problem.errors_known);
+  return midrib.variance_factor * s.covariance;
+}
+
+Eigen::MatrixXd surface_covariance(const LeafProblem& problem, const Eigen::MatrixXd& midrib_covariance,
+                                   LeafTrial& edges) {
+  const CurveSolution& s = edges.solution;
+  const Eigen::Index m = midrib_covariance.rows(), e = s.covariance.rows();
+  const Eigen::MatrixXd by_midrib = s.jacobian.leftCols(m), by_edges = s.jacobian.rightCols(e);
+  // d(twist, width)/d(midrib) at the minimum; what of the midrib's error is left in the residuals raises
+  // chi2.
+  const Eigen::MatrixXd gain = -s.covariance * by_edges.transpose() * by_midrib;
+  const Eigen::MatrixXd left = by_midrib + by_edges * gain;
+  const double inherited = (left * midrib_covariance).cwiseProduct(left).sum();
+  edges.variance_factor = variance_factor(s.chi2, s.degrees_of_freedom() + inherited, problem.errors_known);
+  Eigen::MatrixXd out(m + e, m + e);
+  out.topLeftCorner(m, m) = midrib_covariance;
+  out.bottomLeftCorner(e, m) = gain * midrib_covariance;
+  out.topRightCorner(m, e) = out.bottomLeftCorner(e, m).transpose();
+  out.bottomRightCorner(e, e) =
+      edges.variance_factor * s.covariance + gain * midrib_covariance * gain.transpose();
   return out;
 }
 

@@ -111,6 +111,7 @@ Json organ(const OrganFit& fit) {
   out["rms_m"] = number(fit.rms_m);
   out["rms_fraction"] = number(fit.rms_m / fit.length_m);
   out["chi2_per_dof"] = fit.chi2_per_dof ? number(*fit.chi2_per_dof) : Json(nullptr);
+  out["edge_chi2_per_dof"] = fit.edge_chi2_per_dof ? number(*fit.edge_chi2_per_dof) : Json(nullptr);
   out["degrees_of_freedom"] = fit.degrees_of_freedom;
   out["point_sigma_m"] = fit.errors_known ? Json(nullptr) : number(fit.sigma_m);
   out["direction_deg"] = number(degrees(fit.direction));

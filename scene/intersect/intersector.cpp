@@ -94,6 +94,8 @@ Intersector::Impl::Way Intersector::Impl::start(const Ray& ray) const {
   if (periodic) into_cell(way.origin);
   way.lift = lift * (way.origin.cwiseAbs().maxCoeff() + 1e-3);
   if (way.from.geometry < TracedScene::ground) {
+    // A point of a wide triangle near the scene's origin is as inexact as the triangle's far corners.
+    way.lift += lift * traced.reach(way.from);
     const Eigen::Vector3d n = traced.normal(way.from);
     way.origin += (n.dot(way.direction) < 0 ? -way.lift : way.lift) * n;
   }

@@ -1,6 +1,9 @@
 // Rays against a scene, on Embree, behind this one header. Periodic domains wrap: a ray that leaves a side
 // re-enters on the other until it hits, leaves the top (or bottom), or has wrapped `max_wraps` times.
 // Re-entrant: any number of threads may trace at once. Directions are unit vectors.
+// One ray a call: Embree's packets of 8 and streams were measured on sun rays of the homogeneous disc canopy
+// and gave 0.98 (starts at random) and 0.90 to 1.08 (starts in raster order) of the rate of single rays.
+// Order of the rays matters far more: raster order is 3.5 times as fast as random order.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>

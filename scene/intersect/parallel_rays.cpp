@@ -11,6 +11,7 @@ namespace {
 
 // A disc seen this close to edge-on covers less than that part of its area: nothing.
 constexpr double thinnest = 1e-4;
+constexpr long tile = 8;  // squares across a tile
 constexpr float nowhere = -std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -69,7 +70,7 @@ bool ParallelRays::build(std::uint64_t most_bytes) {
   }
   lay_grid(ellipses);
 
-  std::vector<std::uint32_t> listed(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+  std::vector<std::uint32_t> listed(squares() + 1, 0);
   std::uint64_t entries = 0;
   for (const Ellipse& e : ellipses) {
     squares_of(e, [&](std::size_t square) {
@@ -89,10 +90,12 @@ bool ParallelRays::build(std::uint64_t most_bytes) {
     std::sort(begin, end, [&](std::uint32_t x, std::uint32_t y) {
       return ellipses[x].top != ellipses[y].top ? ellipses[x].top > ellipses[y].top : x < y;
     });
-    const double corner_u =
-        low_.x() + static_cast<double>(static_cast<long>(square) % columns_) * squares_m_.x();
-    const double corner_v =
-        low_.y() + static_cast<double>(static_cast<long>(square) / columns_) * squares_m_.y();
+    const long tile_number = static_cast<long>(square) / (tile * tile),
+               within = static_cast<long>(square) % (tile * tile);
+    const long column = tile_number % tiles_across_ * tile + within % tile;
+    const long row = tile_number / tiles_across_ * tile + within / tile;
+    const double corner_u = low_.x() + static_cast<double>(column) * squares_m_.x();
+    const double corner_v = low_.y() + static_cast<double>(row) * squares_m_.y();
     for (auto from = begin; from < end; from += 8) {
       Block block{};
       for (int k = 0; k < 8; ++k) {
@@ -146,7 +149,17 @@ void ParallelRays::lay_grid(const std::vector<Ellipse>& ellipses) {
   low_ = low;
   columns_ = std::max(1L, static_cast<long>(size.x() / side));
   rows_ = std::max(1L, static_cast<long>(size.y() / side));
+  tiles_across_ = (columns_ + tile - 1) / tile;
   squares_m_ = {size.x() / static_cast<double>(columns_), size.y() / static_cast<double>(rows_)};
+}
+
+std::size_t ParallelRays::number_of(long column, long row) const {
+  const long in_tile = row % tile * tile + column % tile;
+  return static_cast<std::size_t>((row / tile * tiles_across_ + column / tile) * tile * tile + in_tile);
+}
+
+std::size_t ParallelRays::squares() const {
+  return static_cast<std::size_t>(tiles_across_ * ((rows_ + tile - 1) / tile) * tile * tile);
 }
 
 template <class Visit>
@@ -165,7 +178,7 @@ void ParallelRays::squares_of(const Ellipse& e, Visit visit) const {
     if (row < 0 || row >= rows_) continue;
     for (long c = c0; c <= c1; ++c) {
       const long column = inside(c, columns_);
-      if (column >= 0 && column < columns_) visit(static_cast<std::size_t>(row * columns_ + column));
+      if (column >= 0 && column < columns_) visit(number_of(column, row));
     }
   }
 }
@@ -181,7 +194,7 @@ bool ParallelRays::spot(double u, double v, Spot& out) const {
   if (scene_->domain.periodic)
     column = std::clamp(column, 0L, columns_ - 1), row = std::clamp(row, 0L, rows_ - 1);
   if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return false;
-  out.square = static_cast<std::size_t>(row * columns_ + column);
+  out.square = number_of(column, row);
   out.u = static_cast<float>(x - static_cast<double>(column) * squares_m_.x());
   out.v = static_cast<float>(y - static_cast<double>(row) * squares_m_.y());
   return true;
@@ -273,6 +286,17 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
   hit.front = normal.dot(towards_) > 0;
   hit.material = prototype.disc_material;
   return true;
+}
+
+void ParallelRays::prefetch(const Eigen::Vector3f& point) const {
+  const Eigen::Vector3d p = point.cast<double>();
+  Spot at{};
+  if (!spot(p.x() - p.z() * shear_.x(), p.y() - p.z() * shear_.y(), at)) return;
+  const std::uint32_t block = first_block_[at.square];
+  if (block == first_block_[at.square + 1]) return;
+  constexpr std::size_t line = 64;
+  const char* from = reinterpret_cast<const char*>(&blocks_[block]);
+  for (std::size_t byte = 0; byte < sizeof(Block); byte += line) __builtin_prefetch(from + byte);
 }
 
 std::uint64_t ParallelRays::memory_bytes() const {

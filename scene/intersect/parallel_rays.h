@@ -28,6 +28,9 @@ class ParallelRays {
   // The first hit of a ray that starts above the scene and runs along -towards, through `point`.
   bool first(const Eigen::Vector3f& point, Hit& hit) const;
 
+  // Starts to bring what a ray through this point will read; ask for some rays before they are traced.
+  void prefetch(const Eigen::Vector3f& point) const;
+
   std::uint64_t memory_bytes() const;
 
  private:
@@ -50,6 +53,8 @@ class ParallelRays {
   bool build(std::uint64_t most_bytes);
   void lay_grid(const std::vector<Ellipse>& ellipses);
   bool spot(double u, double v, Spot& out) const;
+  std::size_t number_of(long column, long row) const;
+  std::size_t squares() const;
   template <class Visit>
   void squares_of(const Ellipse& ellipse, Visit visit) const;
   static bool covers(const Block& block, float u, float v, float above, std::uint32_t skip);
@@ -63,6 +68,7 @@ class ParallelRays {
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d squares_m_ = Eigen::Vector2d::Ones();  // sides, which close on a periodic cell
   long columns_ = 1, rows_ = 1;
+  long tiles_across_ = 1;                   // squares are numbered by tiles: neighbours are near in memory
   std::vector<std::uint32_t> first_block_;  // of each square, and the end
   std::vector<Block> blocks_;
 };

@@ -262,6 +262,18 @@ Eigen::Vector3d TracedScene::turn(std::uint32_t i, const Eigen::Vector3f& v) con
   return {r.cosine * v.x() - r.sine * v.y(), r.sine * v.x() + r.cosine * v.y(), static_cast<double>(v.z())};
 }
 
+double TracedScene::reach(const SurfaceId& id) const {
+  if (id.geometry == ground) return 0;
+  const Prototype& p = prototype(id.instance);
+  if (id.geometry == discs)
+    return instances_[id.instance].scale * 2 * static_cast<double>(p.discs[id.primitive].radius_m);
+  const auto& [a, b, c] = p.mesh->triangles[id.primitive];
+  const Eigen::Vector3f& from = p.mesh->positions_m[a];
+  const float widest = std::max((p.mesh->positions_m[b] - from).cwiseAbs().maxCoeff(),
+                                (p.mesh->positions_m[c] - from).cwiseAbs().maxCoeff());
+  return instances_[id.instance].scale * 2 * static_cast<double>(widest);
+}
+
 Eigen::Vector3d TracedScene::normal(const SurfaceId& id) const {
   if (id.geometry == ground) return Eigen::Vector3d::UnitZ();
   if (id.geometry == triangles)

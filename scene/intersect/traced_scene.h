@@ -33,6 +33,7 @@ class TracedScene {
   SurfaceId id(const embree::Found& found) const;
   Plane plane(const embree::Found& found) const;      // where it was met, in whichever copy
   Eigen::Vector3d normal(const SurfaceId& id) const;  // the same for all copies
+  double reach(const SurfaceId& id) const;            // no two of its points are further apart along an axis
   // A point and a direction of the found copy's prototype, in the world.
   Eigen::Vector3d to_world(const embree::Found& found, const Eigen::Vector3f& point) const;
   // The same for an instance itself.

@@ -86,7 +86,7 @@ CanopyStructure canopy_structure(const Scene& scene, const GapOptions& options) 
   out.gaps = gap_fraction(intersector, footprint, ground_m, usual_gap_angles_deg(), options);
   for (const Gap& gap : out.gaps) {
     const double g = nearest_g(out.facets, gap.zenith_deg);
-    if (!(gap.p > 0) || !(g * out.lai > 0)) continue;
+    if (!scene.domain.periodic || !(gap.p > 0) || !(g * out.lai > 0)) continue;
     const double scale = std::cos(radians(gap.zenith_deg)) / (g * out.lai);
     out.clumping.push_back({gap.zenith_deg, -std::log(gap.p) * scale, gap.standard_error / gap.p * scale});
   }

@@ -25,7 +25,7 @@ struct CanopyStructure {
   double lai = 0;
   double height_m = 0;  // above the ground, or above z = 0 without one
   std::vector<Gap> gaps;
-  std::vector<Clumping> clumping;                  // where P > 0 and there are leaves
+  std::vector<Clumping> clumping;                  // periodic canopies, where P > 0 and there are leaves
   std::map<std::string, double> material_area_m2;  // by the scene's material names
 };
 CanopyStructure canopy_structure(const Scene& scene, const GapOptions& options = {});

@@ -61,7 +61,8 @@ class ViewState {
   // A grid for this view's first hits costs as much as some 3e5 of its rays through the intersector.
   void prepare(const Sensor& sensor) {
     constexpr std::uint64_t worth_a_grid = 400'000, most_bytes = std::uint64_t{1} << 27;
-    if (asked_for_rays_ || goal * batches < worth_a_grid) return;
+    const std::uint64_t planned = std::max(goal * batches, stage_->simulation->sampling.samples);
+    if (asked_for_rays_ || planned < worth_a_grid) return;
     asked_for_rays_ = true;
     if (const auto towards = sensor.parallel(view))
       view_rays = stage_->intersector->parallel_rays(stage_->simulation->scene, *towards, most_bytes);

@@ -110,6 +110,35 @@ TEST(Recovery, SwappedEdgesArePutRight) {
   expect_functions_agree(fit, leaf, 1e-6);
 }
 
+TEST(Edges, DoNotBendTheMidribAndBadOnesAreLeftOut) {
+  SyntheticLeaf leaf = arching_leaf();
+  leaf.edge_points = 12;
+  Philox random(16);
+  MeasuredOrgan organ = measure(leaf, {.sigma_m = 2e-4}, random);
+  MeasuredOrgan alone = organ;
+  alone.edge_left.clear();
+  alone.edge_right.clear();
+  organ.edge_left[4].x_m.z() += 0.02;
+  // A thick leaf: the edges lie 3 mm below the ruled surface; and one point of the sheath below the first of
+  // the midrib.
+  for (auto* edge : {&organ.edge_left, &organ.edge_right})
+    for (VectorPoint& p : *edge) p.x_m.z() -= 0.003;
+  organ.edge_right.insert(organ.edge_right.begin(), organ.edge_right[0]);
+  organ.edge_right[0].point = 0;
+  organ.edge_right[0].x_m = leaf.base_m + Eigen::Vector3d(0.003, 0.003, -0.03);
+  const FitOptions options = exactly("inclination=p:2,azimuth=p:1,twist=p:1,width=p:2");
+  const OrganFit fit = fit_organ(organ, options), midrib_only = fit_organ(alone, options);
+  ASSERT_TRUE(fit.ok());
+  EXPECT_EQ(fit.length_m, midrib_only.length_m);
+  EXPECT_EQ(fit.functions.at("inclination").coefficients,
+            midrib_only.functions.at("inclination").coefficients);
+  EXPECT_THAT(fit.notes, ::testing::Contains(::testing::HasSubstr("edge points left out")));
+  ASSERT_TRUE(fit.edge_chi2_per_dof.has_value());
+  EXPECT_GT(*fit.edge_chi2_per_dof, 3);
+  EXPECT_NEAR(fit.width_m, leaf.organ.width_m * 0.968,
+              5 * fit.width_sigma_m + 0.002);  // the widest: 0.6 + 1.8^2 / 8.8
+}
+
 TEST(Plant, WhatIsWrittenRebuildsTheFittedMidribs) {
   std::vector<MeasuredOrgan> organs;
   for (int k = 0; k < 3; ++k) {

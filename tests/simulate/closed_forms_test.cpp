@@ -60,6 +60,7 @@ type = "brf"
 views = [[0.0, 0.0], [35.0, 77.0]]
 [sampling]
 samples = 64
+roulette = false
 )");
   const SensorResult result = simulate(scene, 1).sensors.at(0);
   for (std::size_t view = 0; view < 2; ++view) {
@@ -123,7 +124,8 @@ height_px = 4
 [sampling]
 samples = 32
 )");
-  for (const double value : simulate(scene, 1).sensors.at(0).radiance[0].value) EXPECT_NEAR(value, 7.0, 1e-5);
+  const SensorResult result = simulate(scene, 1).sensors.at(0);
+  for (const double value : result.radiance[0].value) EXPECT_NEAR(value, 7.0, 1e-5);
 }
 
 }  // namespace
