@@ -6,7 +6,7 @@
 namespace bpms {
 namespace {
 
-constexpr double most_samples = 1e15;
+constexpr double most_samples = 1e11;
 
 std::uint64_t count_of(const TomlValue& value) {
   return static_cast<std::uint64_t>(value.integer(1, static_cast<long long>(most_samples)));

@@ -42,7 +42,7 @@ void run(const Cli& cli, const Options& options) {
   }
   for (const std::string& line : simulation.scene.notes) note(line);
   Provenance from = provenance(cli, true);
-  from.add_input(options.scene);
+  if (simulation.inputs.empty() || simulation.inputs.front() != options.scene) from.add_input(options.scene);
   for (const std::string& input : simulation.inputs) from.add_input(input);
 
   const Result result = simulate(simulation, cli.common.seed);
@@ -69,7 +69,7 @@ void add_simulate(Cli& cli) {
   verb->add_option("--csv", options->csv, "the results as a tidy table");
   verb->add_option("--samples", options->samples,
                    "paths per view or pixel, instead of what the scene says (rounded up to 32 x 2^k)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000'000}));
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000'000}));
   verb->add_option("--target-se", options->target_se, "standard error of each view's total: 0.0002 or 0.1%")
       ->excludes("--samples");
 }

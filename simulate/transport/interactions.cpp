@@ -31,6 +31,17 @@ std::uint32_t InteractionTally::make_child(std::uint32_t node, Factor factor) {
   return place->second;
 }
 
+void InteractionTally::merge(const InteractionTally& other) {
+  counts.merge(other.counts);
+  std::vector<std::uint32_t> here(other.nodes_.size(), 0);  // the same monomial in this tally
+  for (std::size_t n = 0; n < other.nodes_.size(); ++n) {
+    const Node& node = other.nodes_[n];
+    if (n > 0) here[n] = child(here[node.parent], node.factor);
+    Node& to = nodes_[here[n]];
+    to.sun += node.sun, to.sky += node.sky, to.ground_single += node.ground_single;
+  }
+}
+
 void InteractionTally::means(BatchMeans& out) const {
   out.bands = optics_->bands;
   out.orders = orders_;

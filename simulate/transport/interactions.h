@@ -45,6 +45,7 @@ class InteractionTally {
   }
   void add_sky(int, const Weight& weight) { nodes_[weight.node].sky += static_cast<double>(weight.scalar); }
 
+  void merge(const InteractionTally& other);
   void means(BatchMeans& out) const;
   ViewCounts counts;
 

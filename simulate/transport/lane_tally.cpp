@@ -2,6 +2,12 @@
 
 namespace bpms {
 
+void LaneTally::merge(const LaneTally& other) {
+  counts.merge(other.counts);
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    for (std::size_t i = 0; i < lanes; ++i) rows_[row][i] += other.rows_[row][i];
+}
+
 void LaneTally::means(BatchMeans& out) const {
   out.bands = optics_->bands;
   out.orders = orders_;

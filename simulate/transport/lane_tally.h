@@ -43,6 +43,7 @@ class LaneTally {
     add(order == 0 ? BatchMeans::sky_seen : BatchMeans::sky(std::min(order, orders_)), weight.guide);
   }
 
+  void merge(const LaneTally& other);
   void means(BatchMeans& out) const;
   ViewCounts counts;
 

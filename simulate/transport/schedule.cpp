@@ -10,6 +10,7 @@
 #include "simulate/transport/estimate.h"
 #include "simulate/transport/interactions.h"
 #include "simulate/transport/lane_tally.h"
+#include "simulate/transport/wave.h"
 
 namespace bpms {
 namespace {
@@ -25,18 +26,39 @@ std::uint64_t round_up(double paths) {
   return (n + step - 1) / step * step;
 }
 
+// Paths a batch that are traced together: enough to make neighbours, pieces enough for the threads.
+std::uint64_t piece_size(std::uint64_t paths) {
+  return std::clamp<std::uint64_t>(paths / 16, 128, 8192);
+}
+
 template <class Tally>
 class ViewState {
  public:
   ViewState(const Stage& stage, int orders, std::size_t index) : stage_(&stage), view(index) {
-    tallies.assign(batches, Tally(stage.optics, orders));
+    empty_.assign(batches, Tally(stage.optics, orders));
+    tallies = empty_;
   }
 
-  void trace(const Run& run, const Sensor& sensor, std::size_t batch) {
-    const ViewKey key{run.seed, run.sensor_index, view};
-    trace_paths(*stage_, sensor, view, view_rays.get(), PathNumbers(key, static_cast<std::uint32_t>(batch)),
-                done, goal, tallies[batch]);
+  // A round of paths done ... goal is traced in pieces, in any order, and merged in theirs.
+  std::size_t pieces() const {
+    return goal == done ? 0 : (goal - done + piece_size(goal - done) - 1) / piece_size(goal - done);
   }
+  void start_round() { pieces_.assign(pieces(), {}); }
+  void trace_piece(const Run& run, const Sensor& sensor, std::size_t piece) {
+    if (interrupted()) return;
+    pieces_[piece] = empty_;
+    const std::uint64_t size = piece_size(goal - done), first = done + piece * size;
+    Wave<Tally> wave(*stage_, view_rays.get());
+    wave.add(sensor, view, key(run), first, std::min(goal, first + size), pieces_[piece]);
+    wave.run();
+  }
+  void merge_round() {
+    for (const auto& piece : pieces_)
+      for (std::size_t batch = 0; batch < piece.size(); ++batch) tallies[batch].merge(piece[batch]);
+    pieces_.clear();
+  }
+  ViewKey key(const Run& run) const { return {run.seed, run.sensor_index, view}; }
+
   bool has_all_batches() const {
     return std::all_of(tallies.begin(), tallies.end(), [](const Tally& t) { return t.counts.paths > 0; });
   }
@@ -76,6 +98,9 @@ class ViewState {
  private:
   const Stage* stage_;
   bool asked_for_rays_ = false;
+  std::vector<Tally> empty_;
+  std::vector<std::vector<Tally>>
+      pieces_;  // by piece: one tally a batch; none where an interrupt came before
 
  public:
   std::size_t view;
@@ -110,11 +135,17 @@ void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t la
   for (auto& state : views) active.push_back(&state);
   while (!active.empty() && !interrupted()) {
     parallel_for(active.size(), [&](std::size_t i) { active[i]->prepare(sensor); });
-    parallel_for(active.size() * batches, [&](std::size_t i) {
-      ViewState<Tally>& state = *active[i / batches];
-      state.trace(run, sensor, i % batches);
-      run.progress->add(state.goal - state.done);
+    std::vector<std::pair<ViewState<Tally>*, std::size_t>> work;
+    for (ViewState<Tally>* state : active) {
+      state->start_round();
+      for (std::size_t piece = 0; piece < state->pieces(); ++piece) work.emplace_back(state, piece);
+    }
+    parallel_for(work.size(), [&](std::size_t i) {
+      const auto& [state, piece] = work[i];
+      state->trace_piece(run, sensor, piece);
+      run.progress->add(std::min(state->goal - state->done, piece_size(state->goal - state->done)) * batches);
     });
+    parallel_for(active.size(), [&](std::size_t i) { active[i]->merge_round(); });
     if (interrupted()) break;
     parallel_for(active.size(), [&](std::size_t i) { active[i]->plan(run, out_of_time, out_of_samples); });
     std::erase_if(active, [](const ViewState<Tally>* state) { return state->goal == state->done; });
@@ -126,22 +157,36 @@ void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t la
   run.out_of_samples = run.out_of_samples || out_of_samples;
 }
 
-// Images: a pixel at a time, from start to finish.
+// Images: a few pixels at a time, from start to finish.
 template <class Tally>
 void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
+  constexpr std::size_t together = 16, largest_wave = 1 << 18;
   const Sampling& sampling = run.stage->simulation->sampling;
   std::atomic<bool> out_of_time{false}, out_of_samples{false};
   std::atomic<std::uint64_t> rays{0}, lost{0};
-  parallel_for(sensor.views(), [&](std::size_t pixel) {
-    if (interrupted()) return;
-    ViewState<Tally> state(*run.stage, 1, pixel);
-    state.goal = next_size(sampling, 0, 0);
-    while (state.goal > state.done && !interrupted()) {
-      for (std::size_t batch = 0; batch < batches; ++batch) state.trace(run, sensor, batch);
-      run.progress->add((state.goal - state.done) * batches);
-      if (!interrupted()) state.plan(run, out_of_time, out_of_samples);
+  parallel_for((sensor.views() + together - 1) / together, [&](std::size_t tile) {
+    std::vector<ViewState<Tally>> pixels;
+    std::vector<ViewState<Tally>*> active;
+    for (std::size_t view = tile * together; view < std::min(sensor.views(), (tile + 1) * together); ++view) {
+      pixels.emplace_back(*run.stage, 1, view);
+      pixels.back().goal = next_size(sampling, 0, 0);
     }
-    collect(state, result, rays, lost);
+    for (auto& pixel : pixels) active.push_back(&pixel);
+    Wave<Tally> wave(*run.stage);
+    while (!active.empty() && !interrupted()) {
+      for (ViewState<Tally>* pixel : active) {
+        for (std::uint64_t from = pixel->done; from < pixel->goal; from += piece_size(pixel->goal)) {
+          const std::uint64_t to = std::min(pixel->goal, from + piece_size(pixel->goal));
+          wave.add(sensor, pixel->view, pixel->key(run), from, to, pixel->tallies);
+          if (wave.size() > largest_wave) wave.run();
+        }
+        run.progress->add((pixel->goal - pixel->done) * batches);
+      }
+      wave.run();
+      for (ViewState<Tally>* pixel : active) pixel->plan(run, out_of_time, out_of_samples);
+      std::erase_if(active, [](const ViewState<Tally>* pixel) { return pixel->goal == pixel->done; });
+    }
+    for (const auto& pixel : pixels) collect(pixel, result, rays, lost);
   });
   result.rays += rays;
   result.lost += lost;

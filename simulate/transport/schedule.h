@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "core/progress.h"
-#include "simulate/transport/path.h"
+#include "simulate/transport/stage.h"
 
 namespace bpms {
 

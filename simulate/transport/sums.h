@@ -29,6 +29,7 @@ struct ViewCounts {
   std::uint64_t paths = 0, rays = 0, lost = 0;
   std::uint64_t gap = 0;
   std::vector<std::uint64_t> sunlit, shaded;  // by material
+  void merge(const ViewCounts& other);
 };
 
 // Mean and standard error of the mean over independent batches, value by value.
