@@ -1,4 +1,5 @@
-// A list of numbers as scenes write it: one number, an array, or { from = a, to = b, step = c } with both ends in.
+// A list of numbers as scenes write it: one number, an array, or { from = a, to = b, step = c } with both
+// ends in.
 #pragma once
 #include <functional>
 #include <vector>
@@ -7,5 +8,6 @@
 
 namespace bpms {
 // `read` takes one number from its value and rejects what is out of range.
-std::vector<double> read_number_list(const TomlValue& value, const std::function<double(const TomlValue&)>& read);
+std::vector<double> read_number_list(const TomlValue& value,
+                                     const std::function<double(const TomlValue&)>& read);
 }  // namespace bpms

@@ -73,7 +73,8 @@ std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const Domain& do
     if (!light.sun)
       plane.reject("the principal and the cross plane need a sun: give views = [[vza, vaa], ...]");
     const double turn = name == "principal" ? 180.0 : 90.0;
-    for (const double vza : read_number_list(table.require("vza_deg"), within_sight)) add(vza, light.sun->azimuth_deg + turn);
+    for (const double vza : read_number_list(table.require("vza_deg"), within_sight))
+      add(vza, light.sun->azimuth_deg + turn);
   } else {
     if (zeniths) zeniths.reject("views already say their zeniths: expected vza_deg with plane only");
     for (std::size_t i = 0; i < views.size(); ++i) {
