@@ -10,7 +10,7 @@ namespace bpms::bench {
 
 struct PlainResult {
   double mean[2], variance[2];  // of one path
-  double seconds;  // of the processor
+  double seconds;               // of the processor
 };
 // `paths` of one direction towards the sensor; two bands; build time not counted.
 PlainResult trace_plainly(const Simulation& simulation, double vza_deg, std::uint64_t paths,

@@ -103,7 +103,7 @@ void solve(ReconstructedPoint& point, const Rig& rig, const RigErrors* errors, d
   const Triangulation found = triangulate(point.sightings, rig);
   point.reason = found.failure;
   if (!found.failure.empty()) return;
-  ReconstructedPoint::Estimate& estimate = point.estimate.emplace();
+  PointEstimate& estimate = point.estimate.emplace();
   estimate.x_m = found.x_m;
   estimate.digitising_covariance_m2 = found.covariance_m2;
   estimate.rig_covariance_m2.setZero();

@@ -30,6 +30,18 @@ struct Sighting {
   double sigma_px = 1;
 };
 
+struct PointEstimate {
+  Eigen::Vector3d x_m;  // in the rig's frame
+  Eigen::Matrix3d digitising_covariance_m2;
+  Eigen::Matrix3d rig_covariance_m2;
+  Eigen::MatrixXd by_rig;  // dx/db, 3 x the rig's covariance order (empty without it)
+  double chi2 = 0;
+  int dof = 0;
+  double p = 1;                              // probability of a larger chi2
+  std::vector<Eigen::Vector2d> reprojected;  // for each sighting
+  Eigen::Matrix3d covariance_m2() const { return digitising_covariance_m2 + rig_covariance_m2; }
+};
+
 struct ReconstructedPoint {
   OrganLabel label;
   int point = 0;
@@ -41,18 +53,7 @@ struct ReconstructedPoint {
   std::string reason;
 
   // Known where triangulation came to an end: accepted points, and those with the reason "chi2".
-  struct Estimate {
-    Eigen::Vector3d x_m;  // in the rig's frame
-    Eigen::Matrix3d digitising_covariance_m2;
-    Eigen::Matrix3d rig_covariance_m2;
-    Eigen::MatrixXd by_rig;  // dx/db, 3 x the rig's covariance order (empty without it)
-    double chi2 = 0;
-    int dof = 0;
-    double p = 1;                              // probability of a larger chi2
-    std::vector<Eigen::Vector2d> reprojected;  // for each sighting
-    Eigen::Matrix3d covariance_m2() const { return digitising_covariance_m2 + rig_covariance_m2; }
-  };
-  std::optional<Estimate> estimate;
+  std::optional<PointEstimate> estimate;
 
   bool accepted() const { return reason.empty(); }
   std::string str() const;  // "plant 1 axis 1 rank 3 leaf midrib point 4"
@@ -62,8 +63,8 @@ struct Vectors {
   std::vector<ReconstructedPoint> points;  // accepted and refused, in the order of their labels
   std::vector<VectorPoint> accepted() const;
   std::size_t refused() const;
-  double reprojection_rms_px()
-      const;  // per axis, over the accepted points, no correction for degrees of freedom
+  // Per axis, over the accepted points, no correction for degrees of freedom.
+  double reprojection_rms_px() const;
 };
 
 // A camera that the rig does not have, a pixel outside its image, or a point in two views at once is bad

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -109,6 +110,13 @@ void run(const Cli& cli, const Arguments& arguments) {
     if (!fit.ok()) note(fmt::format("{}: not fitted: {}", fit.measured.str(), fit.failure));
     for (const std::string& line : fit.notes) note(fmt::format("{}: {}", fit.measured.str(), line));
   }
+  const auto bare = std::count_if(fits.begin(), fits.end(), [&](const OrganFit& fit) {
+    return fit.ok() && fit.measured.organ == "leaf" && !fit.functions.contains("width") &&
+           assembly.width_m <= 0;
+  });
+  if (bare > 0)
+    note(fmt::format("{} leaves have no measured edges, so no width and no surface (give --width 1.2cm)",
+                     bare));
   std::vector<FittedPlant> plants;
   for (const std::string& name : names) {
     const auto bud = measured.buds.find(name);

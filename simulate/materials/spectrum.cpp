@@ -5,6 +5,7 @@
 
 #include "core/csv.h"
 #include "core/text.h"
+#include "simulate/number_list.h"
 
 namespace bpms {
 namespace {
@@ -90,9 +91,9 @@ Bands read_bands(const TomlValue& table) {
   if (const TomlValue response = table.get("response"))
     response.reject("band response functions are not built yet: give wavelengths_nm");
   const TomlValue list = table.require("wavelengths_nm");
-  if (list.size() == 0) list.reject("expected at least one wavelength in nm");
-  for (std::size_t i = 0; i < list.size(); ++i)
-    out.wavelengths_nm.push_back(list[i].number(shortest_wavelength_nm, longest_wavelength_nm));
+  out.wavelengths_nm = read_number_list(list, [](const TomlValue& value) {
+    return value.number(shortest_wavelength_nm, longest_wavelength_nm);
+  });
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "simulate/number_list.h"
 #include "simulate/sensors/sensor.h"
 
 namespace bpms {
@@ -46,31 +47,12 @@ class BrfSensor : public Sensor {
   }
 };
 
-double within_sight(double vza_deg, const TomlValue& where) {
+double within_sight(const TomlValue& value) {
+  const double vza_deg = value.number();
   if (!(std::abs(vza_deg) <= steepest_deg))
-    where.reject(
+    value.reject(
         fmt::format("view zenith {} degrees: expected at most {} from the vertical", vza_deg, steepest_deg));
   return vza_deg;
-}
-
-std::vector<double> read_zeniths(const TomlValue& value) {
-  std::vector<double> out;
-  if (value.is_table()) {
-    const double from = within_sight(value.require("from").number(), value.require("from"));
-    const double to = within_sight(value.require("to").number(), value.require("to"));
-    const double step = value.require("step").positive();
-    if (to < from) value.require("to").reject(fmt::format("{} lies before from = {}", to, from));
-    constexpr double most = 100000;
-    if ((to - from) / step > most) value.require("step").reject("expected at most 100 000 views");
-    const auto count = static_cast<std::size_t>(std::floor((to - from) / step + 1e-9)) + 1;
-    for (std::size_t i = 0; i < count; ++i) out.push_back(from + static_cast<double>(i) * step);
-  } else if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i) out.push_back(within_sight(value[i].number(), value[i]));
-    if (out.empty()) value.reject("expected at least one view zenith");
-  } else {
-    out.push_back(within_sight(value.number(), value));
-  }
-  return out;
 }
 
 }  // namespace
@@ -91,12 +73,13 @@ std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const Domain& do
     if (!light.sun)
       plane.reject("the principal and the cross plane need a sun: give views = [[vza, vaa], ...]");
     const double turn = name == "principal" ? 180.0 : 90.0;
-    for (const double vza : read_zeniths(table.require("vza_deg"))) add(vza, light.sun->azimuth_deg + turn);
+    for (const double vza : read_number_list(table.require("vza_deg"), within_sight))
+      add(vza, light.sun->azimuth_deg + turn);
   } else {
     if (zeniths) zeniths.reject("views already say their zeniths: expected vza_deg with plane only");
     for (std::size_t i = 0; i < views.size(); ++i) {
       const std::vector<double> pair = views[i].numbers(2);
-      add(within_sight(pair[0], views[i]), pair[1]);
+      add(within_sight(views[i][0]), pair[1]);
     }
     if (out->list.empty()) views.reject("expected at least one [vza, vaa]");
   }
