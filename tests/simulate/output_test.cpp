@@ -62,8 +62,10 @@ TEST(Output, CsvHasTheColumnsOfTheContract) {
 
 TEST(Output, NetcdfOpensInXarrayWithNamedCoordinates) {
   const TemporaryFolder folder;
-  if (output_of("/usr/bin/python3 -c 'import xarray, netCDF4; print(1)'") != "1\n")
+  if (output_of("/usr/bin/python3 -c 'import xarray, netCDF4; print(1)'") != "1\n") {
+    if (data_required()) FAIL() << "python3-xarray, python3-netcdf4 are absent: run scripts/setup";
     GTEST_SKIP() << "needs python3-xarray, python3-netcdf4";
+  }
   const Simulation scene = simulation_of(folder, scene_text);
   write_netcdf(scene, simulate(scene, 1), {"bpms simulate", 1, {}}, folder / "out.nc", false);
   const std::string said =
