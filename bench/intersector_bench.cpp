@@ -61,16 +61,21 @@ struct Bare {
   explicit Bare(const Scene& scene) : bvh(device) {
     std::size_t count = 0;
     for (const Instance& i : scene.instances) count += scene.prototypes[i.prototype].discs.size();
-    bvh.add_discs(0, count, [&](const embree::Bvh::Discs& buffers) {
-      std::size_t k = 0;
-      for (const Instance& i : scene.instances) {
-        for (const Disc& d : scene.prototypes[i.prototype].discs) {
-          const Eigen::Vector3f c = d.centre_m + i.position_m.cast<float>();
-          buffers.centre_radius[k] = {c.x(), c.y(), c.z(), d.radius_m};
-          buffers.normal[k++] = {d.normal.x(), d.normal.y(), d.normal.z()};
-        }
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    auto* vertex = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, count));
+    auto* normal = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, 12, count));
+    for (const Instance& i : scene.instances) {
+      for (const Disc& d : scene.prototypes[i.prototype].discs) {
+        const Eigen::Vector3f c = d.centre_m + i.position_m.cast<float>();
+        for (int k = 0; k < 3; ++k) *vertex++ = c[k], *normal++ = d.normal[k];
+        *vertex++ = d.radius_m;
       }
-    });
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(bvh.get(), geometry);
+    rtcReleaseGeometry(geometry);
     bvh.commit();
   }
   embree::Device device;

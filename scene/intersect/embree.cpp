@@ -78,11 +78,22 @@ std::span<T> buffer(const Device& device, RTCGeometry geometry, RTCBufferType ty
 }
 }  // namespace
 
-void Bvh::add_discs(std::uint32_t id, std::size_t count, const std::function<void(const Discs&)>& fill) {
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
-  fill({buffer<std::array<float, 4>>(device_, geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, count),
-        buffer<std::array<float, 3>>(device_, geometry, RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, count)});
+const DiscClusters& Bvh::add_discs(std::uint32_t id, const std::vector<Disc>& discs) {
+  discs_.push_back(std::make_unique<DiscClusters>(discs));
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(discs_.back()->clusters()));
+  rtcSetGeometryUserData(geometry, discs_.back().get());
+  rtcSetGeometryBoundsFunction(geometry, &DiscClusters::bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, &DiscClusters::intersect);
+  rtcSetGeometryOccludedFunction(geometry, &DiscClusters::occluded);
   attach(geometry, id);
+  return *discs_.back();
+}
+
+std::uint64_t Bvh::disc_bytes() const {
+  std::uint64_t out = 0;
+  for (const auto& discs : discs_) out += discs->memory_bytes();
+  return out;
 }
 
 void Bvh::add_triangles(std::uint32_t id, std::size_t vertices, std::size_t triangles,

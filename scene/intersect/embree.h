@@ -9,6 +9,8 @@
 #include <memory>
 #include <span>
 
+#include "scene/intersect/disc_clusters.h"
+
 #if __has_include(<embree4/rtcore.h>) && !__has_include(<embree3/rtcore.h>)
 #include <embree4/rtcore.h>
 #define BPMS_EMBREE 4
@@ -71,16 +73,12 @@ class Bvh {
   Bvh(const Bvh&) = delete;
   Bvh& operator=(const Bvh&) = delete;
 
-  // Buffers to be filled before commit(). Geometry numbers are given by the caller.
-  struct Discs {
-    std::span<std::array<float, 4>> centre_radius;
-    std::span<std::array<float, 3>> normal;
-  };
+  // Geometry numbers are given by the caller. Triangles: buffers to be filled.
   struct Triangles {
     std::span<std::array<float, 3>> vertex;
     std::span<std::array<std::uint32_t, 3>> index;
   };
-  void add_discs(std::uint32_t geometry, std::size_t count, const std::function<void(const Discs&)>& fill);
+  const DiscClusters& add_discs(std::uint32_t geometry, const std::vector<Disc>& discs);
   void add_triangles(std::uint32_t geometry, std::size_t vertices, std::size_t triangles,
                      const std::function<void(const Triangles&)>& fill);
   void add_instance(std::uint32_t geometry, const Bvh& prototype, const Placement& placement);
@@ -89,11 +87,13 @@ class Bvh {
   bool intersect(const Segment& segment, Found& found) const;
   bool occluded(const Segment& segment) const;
   RTCScene get() const { return scene_; }
+  std::uint64_t disc_bytes() const;  // which the device does not count
 
  private:
   void attach(RTCGeometry geometry, std::uint32_t id);
   const Device& device_;
   RTCScene scene_ = nullptr;
+  std::vector<std::unique_ptr<DiscClusters>> discs_;
 };
 
 inline RTCRay to_ray(const Segment& s) {

@@ -51,7 +51,6 @@ struct Intersector::Impl {
   void describe_ground(const Way& way, double distance, Hit& hit) const;
 
   TracedScene traced;
-  std::vector<std::vector<std::uint32_t>> material_of_organ;  // of each prototype
   std::optional<Ground> ground;
   bool periodic;
   int max_wraps;
@@ -95,8 +94,9 @@ Intersector::Impl::Way Intersector::Impl::start(const Ray& ray) const {
   way.lift = lift * (way.origin.cwiseAbs().maxCoeff() + 1e-3);
   if (way.from.geometry < TracedScene::ground) {
     // A point of a wide triangle near the scene's origin is as inexact as the triangle's far corners.
-    way.lift += lift * traced.reach(way.from);
-    const Eigen::Vector3d n = traced.normal(way.from);
+    const bool known = ray.from_extent >= 0;
+    way.lift += lift * (known ? static_cast<double>(ray.from_extent) : traced.extent(way.from));
+    const Eigen::Vector3d n = known ? ray.from_normal.cast<double>().eval() : traced.normal(way.from);
     way.origin += (n.dot(way.direction) < 0 ? -way.lift : way.lift) * n;
   }
   return way;
@@ -196,6 +196,7 @@ void Intersector::Impl::describe(const Found& found, Hit& hit) const {
   hit.uv = {what.u, what.v};
   hit.ground = false;
   const auto [point, normal] = traced.plane(what);
+  hit.extent = static_cast<float>(traced.extent(id));
   const double cosine = normal.dot(way.direction);
   hit.front = cosine < 0;
   hit.geometric_normal = normal.cast<float>();
@@ -247,6 +248,7 @@ void Intersector::Impl::describe_ground(const Way& way, double distance, Hit& hi
   hit.organ = 0xffffffffu;
   hit.uv.setZero();
   hit.id = {0, TracedScene::ground, 0};
+  hit.extent = 0;
   hit.ground = true;
 }
 

@@ -30,6 +30,9 @@ struct Ray {
   Eigen::Vector3f direction;
   float far = 1e30f;  // metres along the ray
   SurfaceId from;
+  // Of the surface `from`, where the caller kept them of the Hit; looked up when the extent is negative.
+  Eigen::Vector3f from_normal = Eigen::Vector3f::Zero();
+  float from_extent = -1;
 };
 
 struct Hit {
@@ -42,6 +45,7 @@ struct Hit {
   std::uint32_t organ = 0xffffffffu;  // index into the prototype's mesh organs
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   SurfaceId id;
+  float extent = 0;  // no two points of the disc or triangle are further apart along an axis
   bool ground = false;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "scene/intersect/traced_scene.h"
 
@@ -27,7 +28,16 @@ std::unique_ptr<ParallelRays> ParallelRays::make(const TracedScene& traced, cons
 }
 
 ParallelRays::ParallelRays(const TracedScene& traced, const Scene& scene, const Eigen::Vector3d& towards)
-    : traced_(&traced), scene_(&scene), towards_(towards), shear_(towards.head<2>() / towards.z()) {}
+    : traced_(&traced),
+      scene_(&scene),
+      towards_(towards),
+      shear_(towards.head<2>() / towards.z()),
+      wrap_u_(std::numeric_limits<float>::infinity()),
+      wrap_v_(wrap_u_) {
+  if (!scene.domain.periodic) return;
+  wrap_u_ = static_cast<float>(scene.domain.size_m.x());
+  wrap_v_ = static_cast<float>(scene.domain.size_m.y());
+}
 
 bool ParallelRays::build(std::uint64_t most_bytes) {
   std::uint64_t count = 0;
@@ -36,103 +46,84 @@ bool ParallelRays::build(std::uint64_t most_bytes) {
     count += scene_->prototypes[instance.prototype].discs.size();
   }
   if (count * sizeof(Ellipse) > most_bytes) return false;
-  std::vector<Ellipse> ellipses(count);
+  ellipses_.resize(count);
+  std::vector<Bounds> bounds(count);
+  if (!flatten(bounds)) return false;
+  lay_grid(bounds);
+  for (std::size_t id = 0; id < bounds.size(); ++id) {
+    ellipses_[id].u = static_cast<float>(bounds[id].u - low_.x());
+    ellipses_[id].v = static_cast<float>(bounds[id].v - low_.y());
+  }
+  return list(bounds, most_bytes - count * sizeof(Ellipse));
+}
+
+// The discs as ellipses, but for their centres, which count from the grid's corner.
+bool ParallelRays::flatten(std::vector<Bounds>& bounds) {
   const Eigen::Vector3d slope(shear_.x(), shear_.y(), 1);
   for (std::uint32_t i = 0; i < scene_->instances.size(); ++i) {
     const std::vector<Disc>& discs = traced_->prototype(i).discs;
     for (std::size_t k = 0; k < discs.size(); ++k) {
-      Ellipse& e = ellipses[first_id_[i] + k];
+      Ellipse& e = ellipses_[first_id_[i] + k];
+      Bounds& box = bounds[first_id_[i] + k];
       const Eigen::Vector3d centre = traced_->place(i, discs[k].centre_m);
       const Eigen::Vector3d normal = traced_->turn(i, discs[k].normal);
       const double radius = scene_->instances[i].scale * static_cast<double>(discs[k].radius_m);
       const double along = normal.dot(slope);
-      e.half_u = -1;
+      box.half_u = -1;
       if (std::abs(along) < thinnest * slope.norm()) continue;
-      e.u = centre.x() - centre.z() * shear_.x();
-      e.v = centre.y() - centre.z() * shear_.y();
-      e.height = centre.z();
-      e.a = -normal.x() / along;
-      e.b = -normal.y() / along;
-      const Eigen::Vector3d per_u(1 + e.a * shear_.x(), e.a * shear_.y(), e.a);
-      const Eigen::Vector3d per_v(e.b * shear_.x(), 1 + e.b * shear_.y(), e.b);
+      box.u = centre.x() - centre.z() * shear_.x();
+      box.v = centre.y() - centre.z() * shear_.y();
+      const double a = -normal.x() / along, b = -normal.y() / along;
+      const Eigen::Vector3d per_u(1 + a * shear_.x(), a * shear_.y(), a);
+      const Eigen::Vector3d per_v(b * shear_.x(), 1 + b * shear_.y(), b);
       const double r2 = radius * radius;
-      e.q11 = per_u.squaredNorm() / r2;
-      e.q12 = per_u.dot(per_v) / r2;
-      e.q22 = per_v.squaredNorm() / r2;
-      const double determinant = e.q11 * e.q22 - e.q12 * e.q12;
-      e.half_u = std::sqrt(e.q22 / determinant);
-      e.half_v = std::sqrt(e.q11 / determinant);
-      e.top = e.height + radius * std::sqrt(std::max(0.0, 1 - normal.z() * normal.z()));
+      const double q11 = per_u.squaredNorm() / r2, q12 = per_u.dot(per_v) / r2,
+                   q22 = per_v.squaredNorm() / r2;
+      const double determinant = q11 * q22 - q12 * q12;
+      box.half_u = std::sqrt(q22 / determinant);
+      box.half_v = std::sqrt(q11 / determinant);
+      box.top =
+          static_cast<float>(centre.z() + radius * std::sqrt(std::max(0.0, 1 - normal.z() * normal.z())));
+      e.q11 = static_cast<float>(q11), e.q12 = static_cast<float>(2 * q12), e.q22 = static_cast<float>(q22);
+      e.height = static_cast<float>(centre.z()), e.a = static_cast<float>(a), e.b = static_cast<float>(b);
       if (scene_->domain.periodic &&
-          2 * std::max(e.half_u, e.half_v) > 0.5 * scene_->domain.size_m.minCoeff())
+          2 * std::max(box.half_u, box.half_v) > 0.5 * scene_->domain.size_m.minCoeff())
         return false;
     }
-  }
-  lay_grid(ellipses);
-
-  std::vector<std::uint32_t> listed(squares() + 1, 0);
-  std::uint64_t entries = 0;
-  for (const Ellipse& e : ellipses) {
-    squares_of(e, [&](std::size_t square) {
-      ++listed[square + 1];
-      ++entries;
-    });
-  }
-  if (entries * sizeof(Block) / wide > most_bytes || entries > 0xffffffffull) return false;
-  for (std::size_t s = 1; s < listed.size(); ++s) listed[s] += listed[s - 1];
-  std::vector<std::uint32_t> list(entries), at(listed.begin(), listed.end() - 1);
-  for (std::uint32_t id = 0; id < ellipses.size(); ++id)
-    squares_of(ellipses[id], [&](std::size_t square) { list[at[square]++] = id; });
-
-  first_block_.push_back(0);
-  for (std::size_t square = 0; square + 1 < listed.size(); ++square) {
-    const auto begin = list.begin() + listed[square], end = list.begin() + listed[square + 1];
-    std::sort(begin, end, [&](std::uint32_t x, std::uint32_t y) {
-      return ellipses[x].top != ellipses[y].top ? ellipses[x].top > ellipses[y].top : x < y;
-    });
-    const long tile_number = static_cast<long>(square) / (tile * tile),
-               within = static_cast<long>(square) % (tile * tile);
-    const long column = tile_number % tiles_across_ * tile + within % tile;
-    const long row = tile_number / tiles_across_ * tile + within / tile;
-    const double corner_u = low_.x() + static_cast<double>(column) * squares_m_.x();
-    const double corner_v = low_.y() + static_cast<double>(row) * squares_m_.y();
-    for (auto from = begin; from < end; from += wide) {
-      Block block{};
-      for (int k = 0; k < wide; ++k) {
-        if (end - from <= k) {
-          block.q11[k] = block.q22[k] = 1e30f;
-          block.u[k] = block.v[k] = -1e3f;
-          block.id[k] = 0xffffffffu;
-          continue;
-        }
-        const std::uint32_t id = *(from + k);
-        const Ellipse& e = ellipses[id];
-        double u = e.u - corner_u, v = e.v - corner_v;
-        if (scene_->domain.periodic) {  // the copy that touches this square
-          u -= scene_->domain.size_m.x() * std::round(u / scene_->domain.size_m.x());
-          v -= scene_->domain.size_m.y() * std::round(v / scene_->domain.size_m.y());
-        }
-        block.u[k] = static_cast<float>(u), block.v[k] = static_cast<float>(v);
-        block.q11[k] = static_cast<float>(e.q11), block.q12[k] = static_cast<float>(2 * e.q12),
-        block.q22[k] = static_cast<float>(e.q22);
-        block.height[k] = static_cast<float>(e.height), block.a[k] = static_cast<float>(e.a),
-        block.b[k] = static_cast<float>(e.b);
-        block.id[k] = id;
-      }
-      block.top = static_cast<float>(ellipses[*from].top);
-      blocks_.push_back(block);
-    }
-    first_block_.push_back(static_cast<std::uint32_t>(blocks_.size()));
   }
   return true;
 }
 
+bool ParallelRays::list(const std::vector<Bounds>& bounds, std::uint64_t most_bytes) {
+  first_entry_.assign(squares() + 1, 0);
+  std::uint64_t count = 0;
+  for (const Bounds& box : bounds) {
+    squares_of(box, [&](std::size_t square) {
+      ++first_entry_[square + 1];
+      ++count;
+    });
+  }
+  if (count * sizeof(Entry) > most_bytes || count > 0xffffffffull) return false;
+  for (std::size_t s = 1; s < first_entry_.size(); ++s) first_entry_[s] += first_entry_[s - 1];
+  // From the highest disc down: so each list is in order.
+  std::vector<std::uint32_t> falling(bounds.size());
+  std::iota(falling.begin(), falling.end(), 0u);
+  std::sort(falling.begin(), falling.end(), [&](std::uint32_t x, std::uint32_t y) {
+    return bounds[x].top != bounds[y].top ? bounds[x].top > bounds[y].top : x < y;
+  });
+  entries_.resize(count);
+  std::vector<std::uint32_t> next(first_entry_.begin(), first_entry_.end() - 1);
+  for (const std::uint32_t id : falling)
+    squares_of(bounds[id], [&](std::size_t square) { entries_[next[square]++] = {bounds[id].top, id}; });
+  return true;
+}
+
 // Squares about as wide as a disc's radius: short lists, few entries a disc.
-void ParallelRays::lay_grid(const std::vector<Ellipse>& ellipses) {
+void ParallelRays::lay_grid(const std::vector<Bounds>& bounds) {
   double extent = 0;
   std::size_t count = 0;
   Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
-  for (const Ellipse& e : ellipses) {
+  for (const Bounds& e : bounds) {
     if (e.half_u < 0) continue;
     extent += e.half_u + e.half_v;
     ++count;
@@ -163,7 +154,7 @@ std::size_t ParallelRays::squares() const {
 }
 
 template <class Visit>
-void ParallelRays::squares_of(const Ellipse& e, Visit visit) const {
+void ParallelRays::squares_of(const Bounds& e, Visit visit) const {
   if (e.half_u < 0) return;
   const auto number = [](double x, double side) { return static_cast<long>(std::floor(x / side)); };
   const double hair = 1e-6 * squares_m_.maxCoeff();
@@ -195,33 +186,18 @@ bool ParallelRays::spot(double u, double v, Spot& out) const {
     column = std::clamp(column, 0L, columns_ - 1), row = std::clamp(row, 0L, rows_ - 1);
   if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return false;
   out.square = number_of(column, row);
-  out.u = static_cast<float>(x - static_cast<double>(column) * squares_m_.x());
-  out.v = static_cast<float>(y - static_cast<double>(row) * squares_m_.y());
+  out.u = static_cast<float>(x);
+  out.v = static_cast<float>(y);
   return true;
 }
 
-__attribute__((target_clones("avx2", "default"))) bool ParallelRays::covers(const Block& block, float u,
-                                                                            float v, float above,
-                                                                            std::uint32_t skip) {
-  int any = 0;
-  for (int k = 0; k < wide; ++k) {
-    const float du = u - block.u[k], dv = v - block.v[k];
-    const float inside = block.q11[k] * du * du + block.q12[k] * du * dv + block.q22[k] * dv * dv;
-    const float height = block.height[k] + block.a[k] * du + block.b[k] * dv;
-    any |= static_cast<int>(inside <= 1.0f) & static_cast<int>(height > above) &
-           static_cast<int>(block.id[k] != skip);
-  }
-  return any != 0;
-}
-
-__attribute__((target_clones("avx2", "default"))) void ParallelRays::heights(const Block& block, float u,
-                                                                             float v, float* out) {
-  for (int k = 0; k < wide; ++k) {
-    const float du = u - block.u[k], dv = v - block.v[k];
-    const float inside = block.q11[k] * du * du + block.q12[k] * du * dv + block.q22[k] * dv * dv;
-    const float height = block.height[k] + block.a[k] * du + block.b[k] * dv;
-    out[k] = inside <= 1.0f ? height : nowhere;
-  }
+// `nowhere` outside the ellipse.
+float ParallelRays::height_at(const Ellipse& e, float u, float v) const {
+  float du = u - e.u, dv = v - e.v;
+  if (std::abs(du) > 0.5f * wrap_u_) du -= std::copysign(wrap_u_, du);
+  if (std::abs(dv) > 0.5f * wrap_v_) dv -= std::copysign(wrap_v_, dv);
+  const float inside = e.q11 * du * du + e.q12 * du * dv + e.q22 * dv * dv;
+  return inside <= 1.0f ? e.height + e.a * du + e.b * dv : nowhere;
 }
 
 bool ParallelRays::occluded(const Eigen::Vector3f& point, const SurfaceId& from) const {
@@ -231,10 +207,10 @@ bool ParallelRays::occluded(const Eigen::Vector3f& point, const SurfaceId& from)
   if (!spot(p.x() - p.z() * shear_.x(), p.y() - p.z() * shear_.y(), at)) return false;
   const std::uint32_t skip =
       from.geometry == TracedScene::discs ? first_id_[from.instance] + from.primitive : 0xffffffffu;
-  for (std::uint32_t b = first_block_[at.square]; b < first_block_[at.square + 1]; ++b) {
-    const Block& block = blocks_[b];
-    if (block.top <= point.z()) return false;
-    if (covers(block, at.u, at.v, point.z(), skip)) return true;
+  for (std::uint32_t k = first_entry_[at.square]; k < first_entry_[at.square + 1]; ++k) {
+    const Entry& entry = entries_[k];
+    if (entry.top <= point.z()) return false;
+    if (height_at(ellipses_[entry.id], at.u, at.v) > point.z() && entry.id != skip) return true;
   }
   return false;
 }
@@ -247,13 +223,11 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
   std::uint32_t id = 0xffffffffu;
   Spot at{};
   if (spot(u, v, at)) {
-    for (std::uint32_t b = first_block_[at.square]; b < first_block_[at.square + 1]; ++b) {
-      const Block& block = blocks_[b];
-      if (block.top <= height) break;
-      float found[wide];
-      heights(block, at.u, at.v, found);
-      for (int k = 0; k < wide; ++k)
-        if (found[k] > height) height = found[k], id = block.id[k];
+    for (std::uint32_t k = first_entry_[at.square]; k < first_entry_[at.square + 1]; ++k) {
+      const Entry& entry = entries_[k];
+      if (entry.top <= height) break;
+      const float found = height_at(ellipses_[entry.id], at.u, at.v);
+      if (found > height) height = found, id = entry.id;
     }
   }
   if (height == nowhere) return false;
@@ -275,6 +249,7 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
     hit.material = scene_->ground->material;
     hit.geometric_normal = hit.shading_normal = Eigen::Vector3f::UnitZ();
     hit.id = {0, TracedScene::ground, 0};
+    hit.extent = 0;
     return true;
   }
   const auto instance = static_cast<std::uint32_t>(std::upper_bound(first_id_.begin(), first_id_.end(), id) -
@@ -283,6 +258,7 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
   const Prototype& prototype = traced_->prototype(instance);
   const Eigen::Vector3d normal = traced_->turn(instance, prototype.discs[hit.id.primitive].normal);
   hit.geometric_normal = hit.shading_normal = normal.cast<float>();
+  hit.extent = static_cast<float>(traced_->extent(hit.id));
   hit.front = normal.dot(towards_) > 0;
   hit.material = prototype.disc_material;
   return true;
@@ -292,15 +268,11 @@ void ParallelRays::prefetch(const Eigen::Vector3f& point) const {
   const Eigen::Vector3d p = point.cast<double>();
   Spot at{};
   if (!spot(p.x() - p.z() * shear_.x(), p.y() - p.z() * shear_.y(), at)) return;
-  const std::uint32_t block = first_block_[at.square];
-  if (block == first_block_[at.square + 1]) return;
-  constexpr std::size_t line = 64;
-  const char* from = reinterpret_cast<const char*>(&blocks_[block]);
-  for (std::size_t byte = 0; byte < sizeof(Block); byte += line) __builtin_prefetch(from + byte);
+  __builtin_prefetch(&entries_[first_entry_[at.square]]);
 }
 
 std::uint64_t ParallelRays::memory_bytes() const {
-  return blocks_.size() * sizeof(Block) + first_block_.size() * 4;
+  return entries_.size() * sizeof(Entry) + first_entry_.size() * 4 + ellipses_.size() * sizeof(Ellipse);
 }
 
 }  // namespace bpms

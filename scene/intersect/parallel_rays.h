@@ -34,32 +34,36 @@ class ParallelRays {
   std::uint64_t memory_bytes() const;
 
  private:
-  // Four ellipses of one square, by component. Offsets from a disc's centre: du, dv. Inside the ellipse
-  // where q11 du^2 + q12 du dv + q22 dv^2 <= 1; there the disc's height is height + a du + b dv.
-  static constexpr int wide = 4;
-  struct alignas(32) Block {
-    float u[wide], v[wide], q11[wide], q12[wide], q22[wide], height[wide], a[wide], b[wide];
-    std::uint32_t id[wide];
-    float top;  // of all of this block and those that follow in the square
+  // A disc seen along the rays. Offsets from its centre: du, dv. Inside where q11 du^2 + q12 du dv + q22 dv^2
+  // <= 1; there its height is height + a du + b dv.
+  struct alignas(32) Ellipse {
+    float u, v, q11, q12, q22, height, a, b;
   };
-  struct Ellipse {
-    double u, v, height, a, b, q11, q12, q22, half_u, half_v, top;
+  // Of a square's list, highest first.
+  struct Entry {
+    float top;
+    std::uint32_t id;
+  };
+  struct Bounds {  // half_u < 0: seen edge-on, covers nothing
+    double u, v, half_u, half_v;
+    float top;
   };
   struct Spot {
     std::size_t square;
-    float u, v;  // from the square's low corner
+    float u, v;
   };
 
   ParallelRays(const TracedScene& traced, const Scene& scene, const Eigen::Vector3d& towards);
   bool build(std::uint64_t most_bytes);
-  void lay_grid(const std::vector<Ellipse>& ellipses);
+  bool flatten(std::vector<Bounds>& bounds);
+  void lay_grid(const std::vector<Bounds>& bounds);
+  bool list(const std::vector<Bounds>& bounds, std::uint64_t most_bytes);
   bool spot(double u, double v, Spot& out) const;
   std::size_t number_of(long column, long row) const;
   std::size_t squares() const;
   template <class Visit>
-  void squares_of(const Ellipse& ellipse, Visit visit) const;
-  static bool covers(const Block& block, float u, float v, float above, std::uint32_t skip);
-  static void heights(const Block& block, float u, float v, float* out);
+  void squares_of(const Bounds& bounds, Visit visit) const;
+  float height_at(const Ellipse& ellipse, float u, float v) const;
 
   const TracedScene* traced_;
   const Scene* scene_;
@@ -70,8 +74,10 @@ class ParallelRays {
   Eigen::Vector2d squares_m_ = Eigen::Vector2d::Ones();  // sides, which close on a periodic cell
   long columns_ = 1, rows_ = 1;
   long tiles_across_ = 1;                   // squares are numbered by tiles: neighbours are near in memory
-  std::vector<std::uint32_t> first_block_;  // of each square, and the end
-  std::vector<Block> blocks_;
+  float wrap_u_, wrap_v_;                   // the period; infinite where there is none
+  std::vector<Ellipse> ellipses_;           // by number of the disc over all instances
+  std::vector<std::uint32_t> first_entry_;  // of each square, and the end
+  std::vector<Entry> entries_;
 };
 
 }  // namespace bpms

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scene/geometry/morton.h"
+#include "scene/geometry/cluster_order.h"
 
 namespace bpms {
 
@@ -49,14 +49,14 @@ TracedScene::TracedScene(const Scene& scene, const IntersectorOptions& options)
   top_.commit();
 }
 
-// Embree keeps points by number only: discs that lie together should be numbered together.
 void TracedScene::sort_discs() {
   for (Prototype& prototype : prototypes_) {
     std::vector<Eigen::Vector3f> centres;
     for (const Disc& disc : prototype.discs) centres.push_back(disc.centre_m);
     std::vector<Disc> sorted;
     sorted.reserve(centres.size());
-    for (const std::uint32_t k : morton_order(centres)) sorted.push_back(prototype.discs[k]);
+    for (const std::uint32_t k : cluster_order(centres, embree::DiscClusters::wide))
+      sorted.push_back(prototype.discs[k]);
     prototype.discs = std::move(sorted);
   }
 }
@@ -113,6 +113,13 @@ void TracedScene::make_copies(const std::vector<Box>& instance_bounds) {
   }
 }
 
+std::uint64_t TracedScene::memory_bytes() const {
+  std::uint64_t out = device_.memory_bytes() + top_.disc_bytes();
+  for (const auto& bvh : prototype_bvh_)
+    if (bvh) out += bvh->disc_bytes();
+  return out;
+}
+
 std::uint64_t TracedScene::primitives(std::uint32_t prototype) const {
   const Prototype& p = prototypes_[prototype];
   return p.discs.size() + (p.mesh ? p.mesh->triangles.size() : 0);
@@ -149,15 +156,10 @@ void TracedScene::add_flat_discs(std::uint32_t number) {
   }
   const std::size_t count = copy.whole ? own.size() : copy.kept_discs.size();
   if (count == 0) return;
-  top_.add_discs(2 * number + discs, count, [&](const embree::Bvh::Discs& buffers) {
-    for (std::size_t k = 0; k < count; ++k) {
-      const Disc disc = world(copy.whole ? k : copy.kept_discs[k]);
-      buffers.centre_radius[k] = {disc.centre_m.x(), disc.centre_m.y(), disc.centre_m.z(), disc.radius_m};
-      buffers.normal[k] = {disc.normal.x(), disc.normal.y(), disc.normal.z()};
-    }
-    copy.disc_centre = buffers.centre_radius;
-    copy.disc_normal = buffers.normal;
-  });
+  std::vector<Disc> written;
+  written.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) written.push_back(world(copy.whole ? k : copy.kept_discs[k]));
+  copy.discs = &top_.add_discs(2 * number + discs, written);
 }
 
 void TracedScene::add_flat_triangles(std::uint32_t number) {
@@ -203,15 +205,7 @@ void TracedScene::add_flat_triangles(std::uint32_t number) {
 
 std::unique_ptr<embree::Bvh> TracedScene::prototype_bvh(const Prototype& prototype) const {
   auto bvh = std::make_unique<embree::Bvh>(device_);
-  if (!prototype.discs.empty()) {
-    bvh->add_discs(discs, prototype.discs.size(), [&](const embree::Bvh::Discs& buffers) {
-      for (std::size_t k = 0; k < prototype.discs.size(); ++k) {
-        const Disc& d = prototype.discs[k];
-        buffers.centre_radius[k] = {d.centre_m.x(), d.centre_m.y(), d.centre_m.z(), d.radius_m};
-        buffers.normal[k] = {d.normal.x(), d.normal.y(), d.normal.z()};
-      }
-    });
-  }
+  if (!prototype.discs.empty()) bvh->add_discs(discs, prototype.discs);
   if (prototype.mesh && !prototype.mesh->triangles.empty()) {
     const Mesh& mesh = *prototype.mesh;
     const auto fill = [&](const embree::Bvh::Triangles& buffers) {
@@ -262,11 +256,15 @@ Eigen::Vector3d TracedScene::turn(std::uint32_t i, const Eigen::Vector3f& v) con
   return {r.cosine * v.x() - r.sine * v.y(), r.sine * v.x() + r.cosine * v.y(), static_cast<double>(v.z())};
 }
 
-double TracedScene::reach(const SurfaceId& id) const {
+double TracedScene::extent(const SurfaceId& id) const {
   if (id.geometry == ground) return 0;
+  if (id.geometry == discs) {
+    const Copy& copy = copies_[whole_copy_[id.instance]];
+    return 2 * (copy.flat ? copy.discs->radius(id.primitive)
+                          : instances_[id.instance].scale *
+                                static_cast<double>(prototype(id.instance).discs[id.primitive].radius_m));
+  }
   const Prototype& p = prototype(id.instance);
-  if (id.geometry == discs)
-    return instances_[id.instance].scale * 2 * static_cast<double>(p.discs[id.primitive].radius_m);
   const auto& [a, b, c] = p.mesh->triangles[id.primitive];
   const Eigen::Vector3f& from = p.mesh->positions_m[a];
   const float widest = std::max((p.mesh->positions_m[b] - from).cwiseAbs().maxCoeff(),
@@ -280,17 +278,13 @@ Eigen::Vector3d TracedScene::normal(const SurfaceId& id) const {
     return turn(id.instance, triangle_normals_[instances_[id.instance].prototype][id.primitive]);
   const Copy& copy = copies_[whole_copy_[id.instance]];
   if (!copy.flat) return turn(id.instance, prototype(id.instance).discs[id.primitive].normal);
-  const std::array<float, 3>& n = copy.disc_normal[id.primitive];
-  return {n[0], n[1], n[2]};
+  return copy.discs->normal(id.primitive);
 }
 
 TracedScene::Plane TracedScene::plane(const embree::Found& found) const {
   const Copy& copy = copy_of(found);
-  if (kind_of(found) == discs && copy.flat) {
-    const auto& c = copy.disc_centre[found.primitive];
-    const auto& n = copy.disc_normal[found.primitive];
-    return {{c[0], c[1], c[2]}, {n[0], n[1], n[2]}};
-  }
+  if (kind_of(found) == discs && copy.flat)
+    return {copy.discs->centre(found.primitive), copy.discs->normal(found.primitive)};
   const SurfaceId which = id(found);
   const Prototype& own = prototype(which.instance);
   const Eigen::Vector3f& point = which.geometry == discs

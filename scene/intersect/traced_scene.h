@@ -3,7 +3,7 @@
 //
 // A periodic cell is completed with the copies, shifted by whole cells, of everything that crosses its
 // border. (A wider margin of copies, which saves rays their change of sides, was tried: no faster on HET01
-// and a thin layer.) Instances and triangles are numbered as in the Scene, discs along a space-filling curve.
+// and a thin layer.) Instances and triangles are numbered as in the Scene, discs by clusters.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -33,7 +33,7 @@ class TracedScene {
   SurfaceId id(const embree::Found& found) const;
   Plane plane(const embree::Found& found) const;      // where it was met, in whichever copy
   Eigen::Vector3d normal(const SurfaceId& id) const;  // the same for all copies
-  double reach(const SurfaceId& id) const;            // no two of its points are further apart along an axis
+  double extent(const SurfaceId& id) const;           // no two of its points are further apart along an axis
   // A point and a direction of the found copy's prototype, in the world.
   Eigen::Vector3d to_world(const embree::Found& found, const Eigen::Vector3f& point) const;
   // The same for an instance itself.
@@ -46,7 +46,7 @@ class TracedScene {
   const embree::Bvh& bvh() const { return top_; }
   const Box& box() const { return box_; }  // of all geometry; x and y of the cell when periodic
   bool instanced() const { return instanced_; }
-  std::uint64_t memory_bytes() const { return device_.memory_bytes(); }
+  std::uint64_t memory_bytes() const;
 
  private:
   // An instance shifted by whole cells: an Embree instance, or its primitives written out (flat). Its numbers
@@ -58,9 +58,8 @@ class TracedScene {
     bool flat = false;
     bool whole = true;
     std::vector<std::uint32_t> kept_discs, kept_triangles;  // when not whole
-    // Embree's own arrays when flat: warm in the caches where a ray has just met something.
-    std::span<const std::array<float, 4>> disc_centre;
-    std::span<const std::array<float, 3>> disc_normal;
+    // When flat: warm in the caches where a ray has just met something.
+    const embree::DiscClusters* discs = nullptr;
   };
   struct Rotation {
     double cosine, sine;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/interrupt.h"
 #include "core/parallel.h"
@@ -28,7 +29,7 @@ std::uint64_t round_up(double paths) {
 
 // Paths a batch that are traced together: enough to make neighbours, pieces enough for the threads.
 std::uint64_t piece_size(std::uint64_t paths) {
-  return std::clamp<std::uint64_t>(paths / 16, 128, 8192);
+  return std::clamp<std::uint64_t>(paths / 2, 128, 8192);
 }
 
 template <class Tally>
@@ -67,18 +68,21 @@ class ViewState {
     for (std::size_t b = 0; b < batches; ++b) tallies[b].means(out[b]);
     return out;
   }
-  // After a round: sets the next goal, or leaves it where it is when the view is finished.
-  void plan(Run& run, std::atomic<bool>& out_of_time, std::atomic<bool>& out_of_samples) {
+  // After a round: sets the next goal, or leaves it where it is when the view is finished. `affordable`:
+  // paths a batch that there is time for.
+  void plan(double affordable, std::atomic<bool>& out_of_time, std::atomic<bool>& out_of_samples) {
     const Simulation& simulation = *stage_->simulation;
     done = goal;
     const double ratio =
         simulation.sampling.target_se > 0 ? reached(means(), simulation.light, simulation.sampling) : 0;
     goal = next_size(simulation.sampling, done, ratio);
     if (goal == done && simulation.sampling.target_se > 0 && ratio < 1) out_of_samples = true;
-    if (goal > done && Clock::now() > run.deadline) {
-      out_of_time = true;
-      goal = done;
-    }
+    if (static_cast<double>(goal - done) <= affordable) return;
+    constexpr std::uint64_t least_part = 8;  // of what is done: less is not worth a round
+    goal = done + static_cast<std::uint64_t>(affordable);
+    if (goal - done >= done / least_part && goal > done) return;
+    goal = done;
+    out_of_time = true;
   }
   // A grid for this view's first hits costs as much as some 3e5 of its rays through the intersector.
   void prepare(const Sensor& sensor) {
@@ -109,6 +113,30 @@ class ViewState {
   std::shared_ptr<const ParallelRays> view_rays;  // made when there are paths enough to pay for it
 };
 
+// How many paths a view and batch there is time for, by the pace of the round that is over.
+class Pace {
+ public:
+  explicit Pace(Clock::time_point deadline) : deadline_(deadline) {}
+  template <class Tally>
+  void start_round(const std::vector<ViewState<Tally>*>& active) {
+    began_ = Clock::now();
+    paths_ = 0;
+    for (const ViewState<Tally>* view : active) paths_ += static_cast<double>(view->goal - view->done);
+    views_ = static_cast<double>(active.size());
+  }
+  double affordable() const {
+    if (deadline_ == Clock::time_point::max()) return std::numeric_limits<double>::infinity();
+    const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+    const Clock::time_point now = Clock::now();
+    const double spent = std::max(1e-9, seconds(now - began_));
+    return std::max(0.0, seconds(deadline_ - now)) * paths_ / spent / views_;
+  }
+
+ private:
+  Clock::time_point deadline_, began_;
+  double paths_ = 0, views_ = 1;
+};
+
 template <class Tally>
 void collect(const ViewState<Tally>& state, SensorResult& result, std::atomic<std::uint64_t>& rays,
              std::atomic<std::uint64_t>& lost) {
@@ -133,7 +161,9 @@ void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t la
   std::atomic<std::uint64_t> rays{0}, lost{0};
   std::vector<ViewState<Tally>*> active;
   for (auto& state : views) active.push_back(&state);
+  Pace pace(run.deadline);
   while (!active.empty() && !interrupted()) {
+    pace.start_round(active);
     parallel_for(active.size(), [&](std::size_t i) { active[i]->prepare(sensor); });
     std::vector<std::pair<ViewState<Tally>*, std::size_t>> work;
     for (ViewState<Tally>* state : active) {
@@ -147,7 +177,9 @@ void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t la
     });
     parallel_for(active.size(), [&](std::size_t i) { active[i]->merge_round(); });
     if (interrupted()) break;
-    parallel_for(active.size(), [&](std::size_t i) { active[i]->plan(run, out_of_time, out_of_samples); });
+    const double affordable = pace.affordable();
+    parallel_for(active.size(),
+                 [&](std::size_t i) { active[i]->plan(affordable, out_of_time, out_of_samples); });
     std::erase_if(active, [](const ViewState<Tally>* state) { return state->goal == state->done; });
   }
   parallel_for(views.size(), [&](std::size_t i) { collect(views[i], result, rays, lost); });
@@ -164,7 +196,15 @@ void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
   const Sampling& sampling = run.stage->simulation->sampling;
   std::atomic<bool> out_of_time{false}, out_of_samples{false};
   std::atomic<std::uint64_t> rays{0}, lost{0};
-  parallel_for((sensor.views() + together - 1) / together, [&](std::size_t tile) {
+  const std::size_t tiles = (sensor.views() + together - 1) / together;
+  std::atomic<std::size_t> started{0};
+  parallel_for(tiles, [&](std::size_t tile) {
+    // Each tile gets its share of the time that is left.
+    Clock::time_point end = run.deadline;
+    const double still = std::max(1.0, static_cast<double>(tiles - started++) / threads());
+    if (end != Clock::time_point::max())
+      end = Clock::now() + std::chrono::duration_cast<Clock::duration>((end - Clock::now()) / still);
+    Pace pace(end);
     std::vector<ViewState<Tally>> pixels;
     std::vector<ViewState<Tally>*> active;
     for (std::size_t view = tile * together; view < std::min(sensor.views(), (tile + 1) * together); ++view) {
@@ -174,6 +214,7 @@ void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
     for (auto& pixel : pixels) active.push_back(&pixel);
     Wave<Tally> wave(*run.stage);
     while (!active.empty() && !interrupted()) {
+      pace.start_round(active);
       for (ViewState<Tally>* pixel : active) {
         for (std::uint64_t from = pixel->done; from < pixel->goal; from += piece_size(pixel->goal)) {
           const std::uint64_t to = std::min(pixel->goal, from + piece_size(pixel->goal));
@@ -183,7 +224,8 @@ void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
         run.progress->add((pixel->goal - pixel->done) * batches);
       }
       wave.run();
-      for (ViewState<Tally>* pixel : active) pixel->plan(run, out_of_time, out_of_samples);
+      const double affordable = pace.affordable();
+      for (ViewState<Tally>* pixel : active) pixel->plan(affordable, out_of_time, out_of_samples);
       std::erase_if(active, [](const ViewState<Tally>* pixel) { return pixel->goal == pixel->done; });
     }
     for (const auto& pixel : pixels) collect(pixel, result, rays, lost);

@@ -12,7 +12,9 @@ namespace bpms {
 namespace {
 
 constexpr float inverse_pi = std::numbers::inv_pi_v<float>;
-constexpr std::size_t group = 16;  // paths whose reads of memory overlap
+// How many paths ahead memory is asked for: first the path, then what its sun ray will read.
+constexpr std::size_t far_ahead = 16, ahead = 8;
+constexpr std::uint64_t low_word = 0xffffffffu;
 
 // A direction about `normal` with density cos/pi. Basis: Duff et al. 2017, JCGT 6(1).
 Eigen::Vector3f cosine_direction(const Eigen::Vector3f& normal, double u, double v) {
@@ -71,108 +73,137 @@ void Wave<Tally>::add(const Sensor& sensor, std::size_t view, const ViewKey& key
     for (std::uint64_t sample = first; sample < last; ++sample) {
       numbers.start(sample);
       const auto [u, v] = numbers.position();
-      paths_.push_back(
-          {sensor.start(view, u, v, stage_.extent), tally.unit(), slot, static_cast<std::uint32_t>(sample)});
+      const Ray ray = sensor.start(view, u, v, stage_.extent);
+      Path& path = paths_.emplace_back();
+      path.weight = tally.unit();
+      path.position = ray.origin;
+      path.direction = ray.direction;
+      path.extent = -1;
+      path.batch = slot;
+      path.sample = static_cast<std::uint32_t>(sample);
     }
   }
 }
 
 template <class Tally>
 void Wave<Tally>::run() {
-  for (int order = 0; !paths_.empty(); ++order) {
-    sort();
-    next_.clear();
-    for (std::size_t from = 0; from < order_.size(); from += group)
-      advance(from, std::min(order_.size(), from + group), order);
+  for (std::size_t i = 0; i < paths_.size(); ++i) note(i);
+  sort();
+  for (const std::uint64_t item : order_) next_.push_back(paths_[item & low_word]);
+  for (int order = 0; !next_.empty(); ++order) {
     paths_.swap(next_);
+    next_.clear();
+    order_.clear();
+    for (std::size_t i = 0; i < paths_.size(); ++i)
+      if (meet(paths_[i], order)) note(i);
+    if (order == sampling_.max_order && order > 0) break;  // only the sky was still to be gathered
+    sort();
+    const auto path_at = [&](std::size_t i) -> Path& { return paths_[order_[i] & low_word]; };
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      if (i + far_ahead < order_.size()) __builtin_prefetch(&path_at(i + far_ahead));
+      if (stage_.sun_rays && i + ahead < order_.size())
+        stage_.sun_rays->prefetch(path_at(i + ahead).position);
+      if (interact(path_at(i), order)) next_.push_back(path_at(i));
+    }
   }
+  paths_.clear();
+  order_.clear();
   numbers_.clear();
   tallies_.clear();
 }
 
-// Along a space-filling (Morton) curve; coarse, since it only has to bring neighbours together.
+// Where a path is along a space-filling (Morton) curve; coarse, since it only has to bring neighbours
+// together.
 template <class Tally>
-void Wave<Tally>::sort() {
-  order_.clear();
-  for (std::size_t i = 0; i < paths_.size(); ++i) {
-    const Eigen::Vector3f cell = (paths_[i].ray.origin - low_) * cells_per_m_;
-    const std::uint64_t key = spread(cell.x()) | spread(cell.y()) << 1 | spread(cell.z()) << 2;
-    order_.push_back(key << 32 | i);
-  }
-  std::sort(order_.begin(), order_.end());
+void Wave<Tally>::note(std::size_t i) {
+  const Eigen::Vector3f cell = (paths_[i].position - low_) * cells_per_m_;
+  const std::uint64_t key = spread(cell.x()) | spread(cell.y()) << 1 | spread(cell.z()) << 2;
+  order_.push_back(key << 32 | i);
 }
 
-// Some paths to their next interaction and through it. In two rounds, so that what the sun rays will read
-// is on its way from memory while other paths are traced.
+// By the key, equal ones as they stand.
 template <class Tally>
-void Wave<Tally>::advance(std::size_t from, std::size_t to, int order) {
-  std::array<Hit, group> hits;
-  std::array<bool, group> met;
-  const auto path_at = [&](std::size_t i) -> Path& { return paths_[order_[i] & 0xffffffffu]; };
-  if (order == 0 && view_rays_ != nullptr)
-    for (std::size_t i = from; i < to; ++i) view_rays_->prefetch(path_at(i).ray.origin);
-  for (std::size_t i = from; i < to; ++i) {
-    met[i - from] = meet(path_at(i), order, hits[i - from]);
-    if (met[i - from] && stage_.sun_rays) stage_.sun_rays->prefetch(hits[i - from].position);
+void Wave<Tally>::sort() {
+  constexpr std::size_t digits = 10, worth_counting = 4096;
+  if (order_.size() < worth_counting) {
+    std::sort(order_.begin(), order_.end());
+    return;
   }
-  for (std::size_t i = from; i < to; ++i)
-    if (met[i - from] && interact(path_at(i), order, hits[i - from])) next_.push_back(path_at(i));
+  unsorted_.resize(order_.size());
+  for (std::size_t shift = 32; shift < 32 + 3 * digits; shift += digits) {
+    std::array<std::uint32_t, (1u << digits) + 1> start{};
+    const auto digit = [shift](std::uint64_t item) { return (item >> shift) & ((1u << digits) - 1); };
+    for (const std::uint64_t item : order_) ++start[digit(item) + 1];
+    for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
+    order_.swap(unsorted_);
+    for (const std::uint64_t item : unsorted_) order_[start[digit(item)]++] = item;
+  }
+}
+
+// False when it meets nothing; else the path is at what it met.
+template <class Tally>
+bool Wave<Tally>::meet(Path& path, int order) {
+  Escape end = Escape::bottom;
+  Hit hit;
+  if (order > 0 || view_rays_ == nullptr)
+    end = stage_.intersector->intersect(
+        {path.position, path.direction, 1e30f, path.surface, path.normal, path.extent}, hit);
+  else if (view_rays_->first(path.position, hit))
+    end = Escape::hit;
+  Tally& tally = *tallies_[path.batch];
+  ++tally.counts.rays;
+  if (order == 0 && (end != Escape::hit || hit.ground)) ++tally.counts.gap;
+  if (end == Escape::wrap_limit) ++tally.counts.lost;
+  if (end == Escape::top && light_.sky) tally.add_sky(order, path.weight);
+  if (end != Escape::hit) return false;
+  path.position = hit.position;
+  path.normal = hit.geometric_normal;
+  path.surface = hit.id;
+  path.extent = hit.extent;
+  path.material = hit.material;
+  path.front = hit.front;
+  path.ground = hit.ground;
+  return true;
 }
 
 // False when the path ends.
 template <class Tally>
-bool Wave<Tally>::interact(Path& path, int order, const Hit& hit) {
-  const bool lit = light_.sun && gather_sun(path, order, hit);
-  if (order == 0)
-    ++(lit ? tallies_[path.batch]->counts.sunlit : tallies_[path.batch]->counts.shaded)[hit.material];
-  if (order + 1 == sampling_.max_order) return false;
-  return scatter(path, order, hit);
+bool Wave<Tally>::interact(Path& path, int order) {
+  const bool lit = light_.sun && gather_sun(path, order);
+  ViewCounts& counts = tallies_[path.batch]->counts;
+  if (order == 0) ++(lit ? counts.sunlit : counts.shaded)[path.material];
+  if (order + 1 == sampling_.max_order && !light_.sky) return false;
+  return scatter(path, order);
 }
 
 template <class Tally>
-bool Wave<Tally>::meet(const Path& path, int order, Hit& hit) {
-  Escape end = Escape::bottom;
-  if (order > 0 || view_rays_ == nullptr)
-    end = stage_.intersector->intersect(path.ray, hit);
-  else if (view_rays_->first(path.ray.origin, hit))
-    end = Escape::hit;
-  ++tallies_[path.batch]->counts.rays;
-  if (order == 0 && (end != Escape::hit || hit.ground)) ++tallies_[path.batch]->counts.gap;
-  if (end == Escape::wrap_limit) ++tallies_[path.batch]->counts.lost;
-  if (end == Escape::top && light_.sky) tallies_[path.batch]->add_sky(order, path.weight);
-  return end == Escape::hit;
-}
-
-template <class Tally>
-bool Wave<Tally>::gather_sun(const Path& path, int order, const Hit& hit) {
-  const float cosine = hit.geometric_normal.dot(to_sun_);
-  const bool same_side = (cosine > 0) == hit.front;
-  if (!same_side && stage_.optics.opaque[hit.material] != 0) return false;
-  Ray shadow;
-  shadow.origin = hit.position;
-  shadow.direction = to_sun_;
-  shadow.from = hit.id;
-  ++tallies_[path.batch]->counts.rays;
-  if (stage_.sun_rays ? stage_.sun_rays->occluded(hit.position, hit.id)
-                      : stage_.intersector->occluded(shadow))
+bool Wave<Tally>::gather_sun(const Path& path, int order) {
+  const float cosine = path.normal.dot(to_sun_);
+  const bool same_side = (cosine > 0) == path.front;
+  if (!same_side && stage_.optics.opaque[path.material] != 0) return false;
+  Tally& tally = *tallies_[path.batch];
+  ++tally.counts.rays;
+  if (stage_.sun_rays ? stage_.sun_rays->occluded(path.position, path.surface)
+                      : stage_.intersector->occluded(
+                            {path.position, to_sun_, 1e30f, path.surface, path.normal, path.extent}))
     return false;
   const Factor factor =
-      same_side ? reflectance_factor(hit.material, hit.front) : transmittance_factor(hit.material);
-  tallies_[path.batch]->add_sun(order + 1, path.weight, factor, std::abs(cosine) * inverse_pi, hit.ground);
+      same_side ? reflectance_factor(path.material, path.front) : transmittance_factor(path.material);
+  tally.add_sun(order + 1, path.weight, factor, std::abs(cosine) * inverse_pi, path.ground);
   return true;
 }
 
 template <class Tally>
-bool Wave<Tally>::scatter(Path& path, int order, const Hit& hit) {
+bool Wave<Tally>::scatter(Path& path, int order) {
   PathNumbers& numbers = numbers_[path.batch];
   numbers.start(path.sample);
   const InteractionNumbers random = numbers.interaction(static_cast<std::uint32_t>(order));
-  const float share = stage_.optics.reflect_share[hit.material][hit.front ? 0 : 1];
+  const float share = stage_.optics.reflect_share[path.material][path.front ? 0 : 1];
   const bool reflect = random.side < static_cast<double>(share);
   if (reflect)
-    tallies_[path.batch]->scatter(path.weight, reflectance_factor(hit.material, hit.front), 1.0f / share);
+    tallies_[path.batch]->scatter(path.weight, reflectance_factor(path.material, path.front), 1.0f / share);
   else
-    tallies_[path.batch]->scatter(path.weight, transmittance_factor(hit.material), 1.0f / (1.0f - share));
+    tallies_[path.batch]->scatter(path.weight, transmittance_factor(path.material), 1.0f / (1.0f - share));
   const float strength = path.weight.guide.largest();
   if (!(strength > 0)) return false;
   if (sampling_.roulette) {
@@ -182,11 +213,8 @@ bool Wave<Tally>::scatter(Path& path, int order, const Hit& hit) {
     if (random.survival >= static_cast<double>(survival)) return false;
     if (survival < 1.0f) tallies_[path.batch]->scale(path.weight, 1.0f / survival);
   }
-  const Eigen::Vector3f outward =
-      hit.front == reflect ? hit.geometric_normal : Eigen::Vector3f(-hit.geometric_normal);
-  path.ray.origin = hit.position;
-  path.ray.direction = cosine_direction(outward, random.direction_u, random.direction_v);
-  path.ray.from = hit.id;
+  const Eigen::Vector3f outward = path.front == reflect ? path.normal : Eigen::Vector3f(-path.normal);
+  path.direction = cosine_direction(outward, random.direction_u, random.direction_v);
   return true;
 }
 

@@ -1,7 +1,8 @@
 // Reverse path tracing: from the sensor, a ray to the sun at each interaction, one diffuse ray onward, the
 // sky gathered by the ray that escapes. Geometric normals throughout, so that no light leaks or is made.
-// Many paths advance together, one interaction at a time, in the order of where they are: neighbours read the
-// same part of the scene, which is several times as fast as to follow each path to its end.
+// Many paths advance together, one interaction at a time. All rays of an order are traced; then what they met
+// is sorted by where it is, the sun's rays are asked for in this order, and the paths go on in it: neighbours
+// read the same part of the scene, which is several times as fast as to follow each path to its end.
 #pragma once
 #include <vector>
 
@@ -24,19 +25,23 @@ class Wave {
   void run();
 
  private:
-  // A path on its way: the ray that it goes on with.
-  struct Path {
-    Ray ray;
+  // A path on its way: the surface that it is at, and the direction in which it leaves.
+  struct alignas(64) Path {
     typename Tally::Weight weight;
+    Eigen::Vector3f position, normal, direction;
+    SurfaceId surface;
+    float extent;
+    std::uint32_t material;
     std::uint32_t batch;  // into numbers_ and tallies_
     std::uint32_t sample;
+    bool front, ground;
   };
+  void note(std::size_t path);
   void sort();
-  void advance(std::size_t from, std::size_t to, int order);
-  bool meet(const Path& path, int order, Hit& hit);
-  bool interact(Path& path, int order, const Hit& hit);
-  bool gather_sun(const Path& path, int order, const Hit& hit);
-  bool scatter(Path& path, int order, const Hit& hit);
+  bool meet(Path& path, int order);
+  bool interact(Path& path, int order);
+  bool gather_sun(const Path& path, int order);
+  bool scatter(Path& path, int order);
 
   const Stage& stage_;
   const Light& light_;
@@ -47,7 +52,7 @@ class Wave {
   std::vector<PathNumbers> numbers_;
   std::vector<Tally*> tallies_;
   std::vector<Path> paths_, next_;
-  std::vector<std::uint64_t> order_;
+  std::vector<std::uint64_t> order_, unsorted_;  // cell << 32 | index into paths_
 };
 
 }  // namespace bpms
