@@ -137,7 +137,8 @@ double robust_sigma(const BundleProblem& problem, const BundleState& state) {
 }
 
 AdjustResult adjust(const BundleProblem& problem, const AdjustOptions& options, BundleState& state) {
-  FLAGS_minloglevel = google::GLOG_FATAL;  // a rejected step is no news for the user
+  // A rejected step is no news for the user. Set once: adjustments run side by side.
+  [[maybe_unused]] static const int silent = FLAGS_minloglevel = google::GLOG_FATAL;
   std::vector<MovingPose> cameras, boards;
   for (const Camera& camera : state.cameras) cameras.push_back({{}, camera_pose(camera)});
   for (const Pose& pose : state.rig_from_board) boards.push_back({{}, pose});

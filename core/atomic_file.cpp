@@ -56,8 +56,11 @@ void AtomicFile::write(std::string_view bytes) {
 void AtomicFile::commit() {
   const int file = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
   const bool synced = file >= 0 && ::fsync(file) == 0;
+  const int why = errno;
   if (file >= 0) ::close(file);
-  if (!synced || (!overwrite_ && fs::exists(path_)) || ::rename(temporary_.c_str(), path_.c_str()) != 0)
+  if (!synced) fail(ErrorKind::missing_resource, {path_}, "cannot be written: {}", std::strerror(why));
+  require_writable(path_, overwrite_);  // somebody else may have written it in the meantime
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0)
     fail(ErrorKind::missing_resource, {path_}, "cannot be put in its place: {}", std::strerror(errno));
   committed_ = true;
 }

@@ -9,6 +9,12 @@ namespace bpms {
 namespace {
 std::atomic<bool> quiet_flag{false};
 
+// What is told on the way must not end the work: a closed or full stderr is no error.
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 std::string in_words(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);
   if (seconds < 5400) return fmt::format("{:.1f} min", seconds / 60);
@@ -24,7 +30,7 @@ bool quiet() {
 }
 
 void note(const std::string& message) {
-  if (!quiet_flag) fmt::print(stderr, "note: {}\n", message);
+  if (!quiet_flag) tell("note: " + message + "\n");
 }
 
 Progress::Progress(std::string what, std::uint64_t total)
@@ -73,11 +79,10 @@ void Progress::show(bool last) {
     line += fmt::format(", {} left", in_words(static_cast<double>(total_ - done) / rate));
   if (!status_.empty()) line += ", " + status_;
   if (terminal_) {
-    fmt::print(stderr, "\r\x1b[K{}{}", line, last ? "\n" : "");
+    tell("\r\x1b[K" + line + (last ? "\n" : ""));
   } else {
-    fmt::print(stderr, "{}\n", line);
+    tell(line + "\n");
   }
-  std::fflush(stderr);
   shown_ = true;
 }
 

@@ -9,13 +9,10 @@
 namespace bpms {
 namespace {
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json points(const std::vector<Eigen::Vector3d>& list) {
   Json out = Json::array();
-  for (const Eigen::Vector3d& p : list) out.push_back({number(p.x()), number(p.y()), number(p.z())});
+  for (const Eigen::Vector3d& p : list)
+    out.push_back({json_number(p.x()), json_number(p.y()), json_number(p.z())});
   return out;
 }
 
@@ -24,22 +21,22 @@ Json function(const FittedFunction& f, bool angle) {
   Json coefficients = Json::array(), sigma = Json::array(), l = Json::array(), value = Json::array(),
        band = Json::array();
   for (Eigen::Index k = 0; k < f.coefficients.size(); ++k) {
-    coefficients.push_back(number(unit * f.coefficients[k]));
-    sigma.push_back(number(unit * std::sqrt(f.covariance(k, k))));
+    coefficients.push_back(json_number(unit * f.coefficients[k]));
+    sigma.push_back(json_number(unit * std::sqrt(f.covariance(k, k))));
   }
   constexpr int steps = 40;
   for (int k = 0; k <= steps; ++k) {
     const double at = static_cast<double>(k) / steps;
     l.push_back(at);
-    value.push_back(number(unit * f.value(at)));
-    band.push_back(number(unit * f.sigma(at)));
+    value.push_back(json_number(unit * f.value(at)));
+    band.push_back(json_number(unit * f.sigma(at)));
   }
   return {{"kind", std::string(1, f.choice.code)},
           {"order", f.choice.order},
           {"unit", angle ? "deg" : "m"},
           {"coefficients", coefficients},
           {"sigma", sigma},
-          {"aicc", number(f.aicc)},
+          {"aicc", json_number(f.aicc)},
           {"curve", {{"l", l}, {"value", value}, {"sigma", band}}}};
 }
 
@@ -50,7 +47,7 @@ Json aicc_table(const OrganFit& fit) {
       out.push_back({{"function", name},
                      {"kind", std::string(1, choice.code)},
                      {"order", choice.order},
-                     {"aicc", number(aicc)}});
+                     {"aicc", json_number(aicc)}});
   }
   return out;
 }
@@ -106,22 +103,22 @@ Json organ(const OrganFit& fit) {
     out["points_m"] = points(fit.points_m);
     return out;
   }
-  out["length_m"] = number(fit.length_m);
-  out["length_sigma_m"] = number(fit.length_sigma_m);
-  out["rms_m"] = number(fit.rms_m);
-  out["rms_fraction"] = number(fit.rms_m / fit.length_m);
-  out["chi2_per_dof"] = fit.chi2_per_dof ? number(*fit.chi2_per_dof) : Json(nullptr);
-  out["edge_chi2_per_dof"] = fit.edge_chi2_per_dof ? number(*fit.edge_chi2_per_dof) : Json(nullptr);
+  out["length_m"] = json_number(fit.length_m);
+  out["length_sigma_m"] = json_number(fit.length_sigma_m);
+  out["rms_m"] = json_number(fit.rms_m);
+  out["rms_fraction"] = json_number(fit.rms_m / fit.length_m);
+  out["chi2_per_dof"] = fit.chi2_per_dof ? json_number(*fit.chi2_per_dof) : Json(nullptr);
+  out["edge_chi2_per_dof"] = fit.edge_chi2_per_dof ? json_number(*fit.edge_chi2_per_dof) : Json(nullptr);
   out["degrees_of_freedom"] = fit.degrees_of_freedom;
-  out["point_sigma_m"] = fit.errors_known ? Json(nullptr) : number(fit.sigma_m);
-  out["direction_deg"] = number(degrees(fit.direction));
-  out["direction_sigma_deg"] = number(degrees(fit.direction_sigma));
-  out["base_m"] = {number(fit.base_m.x()), number(fit.base_m.y()), number(fit.base_m.z())};
-  out["base_sigma_m"] = {number(std::sqrt(fit.base_covariance_m2(0, 0))),
-                         number(std::sqrt(fit.base_covariance_m2(1, 1))),
-                         number(std::sqrt(fit.base_covariance_m2(2, 2)))};
-  out["width_m"] = number(fit.width_m);
-  out["width_sigma_m"] = number(fit.width_sigma_m);
+  out["point_sigma_m"] = fit.errors_known ? Json(nullptr) : json_number(fit.sigma_m);
+  out["direction_deg"] = json_number(degrees(fit.direction));
+  out["direction_sigma_deg"] = json_number(degrees(fit.direction_sigma));
+  out["base_m"] = {json_number(fit.base_m.x()), json_number(fit.base_m.y()), json_number(fit.base_m.z())};
+  out["base_sigma_m"] = {json_number(std::sqrt(fit.base_covariance_m2(0, 0))),
+                         json_number(std::sqrt(fit.base_covariance_m2(1, 1))),
+                         json_number(std::sqrt(fit.base_covariance_m2(2, 2)))};
+  out["width_m"] = json_number(fit.width_m);
+  out["width_sigma_m"] = json_number(fit.width_sigma_m);
   out["edges_swapped"] = fit.edges_swapped;
   out["outliers"] = fit.outliers;
   out["notes"] = fit.notes;
@@ -142,8 +139,8 @@ Json fit_summary(const std::vector<OrganFit>& fits) {
   for (const OrganFit& fit : fits)
     if (fit.ok()) fractions.push_back(fit.rms_m / fit.length_m);
   return {{"organs", fits.size()},
-          {"rms_fraction_median", number(quantile(fractions, 0.5))},
-          {"rms_fraction_p90", number(quantile(fractions, 0.9))},
+          {"rms_fraction_median", json_number(quantile(fractions, 0.5))},
+          {"rms_fraction_p90", json_number(quantile(fractions, 0.9))},
           {"failed", fits.size() - fractions.size()}};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/interrupt.h"
 #include "core/nearest.h"
 #include "core/parallel.h"
 #include "reconstruct/points/gate.h"
@@ -133,6 +134,7 @@ Vectors reconstruct(const std::vector<ImagePoint>& points, const Rig& rig,
   std::optional<RigErrors> errors;
   if (options.with_rig_covariance) errors.emplace(rig);
   parallel_for(out.points.size(), [&](std::size_t i) {
+    throw_if_interrupted();
     solve(out.points[i], rig, errors ? &*errors : nullptr, options.gate_p);
   });
   return out;

@@ -1,6 +1,4 @@
 // The command line: a table of verbs, one error line, the exit code.
-#include <fmt/core.h>
-
 #include <cstdio>
 #include <new>
 
@@ -38,6 +36,12 @@ int parse_and_run(Cli& cli, int argc, char** argv) {
   return 0;
 }
 
+// On a closed or full stderr the exit code still says it.
+int report_error(bpms::ErrorKind kind, const std::string& message) {
+  std::fputs(("error: " + message + "\n").c_str(), stderr);
+  return bpms::exit_code(kind);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -50,15 +54,15 @@ int main(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) cli.command += (i ? " " : "") + std::string(i ? argv[i] : "bpms");
   try {
     for (const auto add : verbs) add(cli);
-    return parse_and_run(cli, argc, argv);
+    const int code = parse_and_run(cli, argc, argv);
+    if (std::fflush(stdout) != 0)
+      bpms::fail(bpms::ErrorKind::missing_resource, {}, "stdout cannot be written");
+    return code;
   } catch (const bpms::Error& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return bpms::exit_code(error.kind());
+    return report_error(error.kind(), error.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory\n");
-    return bpms::exit_code(bpms::ErrorKind::missing_resource);
+    return report_error(bpms::ErrorKind::missing_resource, "out of memory");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: internal: {}\n", error.what());
-    return bpms::exit_code(bpms::ErrorKind::internal);
+    return report_error(bpms::ErrorKind::internal, std::string("internal: ") + error.what());
   }
 }

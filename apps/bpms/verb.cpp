@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
+
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -9,8 +11,13 @@
 
 namespace bpms {
 
+bool names_folder(const std::string& output) {
+  std::error_code none;
+  return output.ends_with('/') || std::filesystem::is_directory(output, none);
+}
+
 CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary, const std::string& example,
-                   std::function<void()> run) {
+                   std::function<void()> run, OutputKind output) {
   CLI::App* verb = cli.app.add_subcommand(name, summary);
   CommonOptions& common = cli.common;
   verb->add_option("-o,--output", common.output, "output file");
@@ -21,11 +28,12 @@ CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary
   verb->add_flag("--json", common.json, "the report on stdout as one JSON object");
   verb->add_flag("--overwrite", common.overwrite, "replace existing outputs");
   verb->footer("Example:\n  " + example);
-  verb->callback([&cli, run = std::move(run)] {
+  verb->callback([&cli, output, run = std::move(run)] {
     set_quiet(cli.common.quiet);
     set_threads(cli.common.threads);
-    if (!cli.common.output.empty() && cli.common.output != "-")
-      require_writable(cli.common.output, cli.common.overwrite);
+    const std::string& path = cli.common.output;
+    const bool own_business = output == OutputKind::file_or_folder && names_folder(path);
+    if (!path.empty() && path != "-" && !own_business) require_writable(path, cli.common.overwrite);
     if (!cli.common.report.empty()) require_writable(cli.common.report, cli.common.overwrite);
     run();
   });
@@ -41,6 +49,8 @@ Provenance provenance(const Cli& cli, bool with_seed) {
 
 const std::string& require_output(const Cli& cli) {
   if (cli.common.output.empty()) throw Error(ErrorKind::bad_input, "no output file: give -o FILE");
+  if (cli.common.output == "-")
+    throw Error(ErrorKind::bad_input, "-o -: this verb does not write to stdout; give a file's name");
   return cli.common.output;
 }
 

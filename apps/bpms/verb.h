@@ -31,10 +31,14 @@ struct Cli {
   std::string command;  // as typed
 };
 
+// Where -o of a verb may go: files are checked before the verb runs, folders are the verb's own business.
+enum class OutputKind { file, file_or_folder };
+bool names_folder(const std::string& output);  // "plants/", or a folder that is there
+
 // A subcommand with the common options; `example` is printed at the end of its help. `run` is called after
 // parsing.
 CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary, const std::string& example,
-                   std::function<void()> run);
+                   std::function<void()> run, OutputKind output = OutputKind::file);
 
 Provenance provenance(const Cli& cli, bool with_seed = false);
 
@@ -46,7 +50,7 @@ void deliver_report(const Cli& cli, const std::string& verb, Json report, const 
 // The page that holds these reports, self-contained (template built from workbench/).
 std::string html_page(const Json& document);
 
-// Missing -o is bad input.
+// Missing -o is bad input, and so is -o -: these outputs are files.
 const std::string& require_output(const Cli& cli);
 
 }  // namespace bpms

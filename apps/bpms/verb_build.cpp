@@ -14,7 +14,7 @@
 namespace bpms {
 namespace {
 
-struct BuildOptions {
+struct BuildArguments {
   std::string plant;
   std::vector<std::string> also;  // further outputs
   std::string tolerance = "0.1mm";
@@ -72,7 +72,7 @@ Json report(const Plant& plant, const Mesh& mesh, const std::vector<std::string>
   return out;
 }
 
-void run(const Cli& cli, const BuildOptions& options) {
+void run(const Cli& cli, const BuildArguments& options) {
   std::vector<std::string> outputs{require_output(cli)};
   outputs.insert(outputs.end(), options.also.begin(), options.also.end());
   const double tolerance = tolerance_m(options.tolerance);
@@ -99,7 +99,7 @@ void run(const Cli& cli, const BuildOptions& options) {
 }  // namespace
 
 void add_build(Cli& cli) {
-  auto options = std::make_shared<BuildOptions>();
+  auto options = std::make_shared<BuildArguments>();
   CLI::App* verb = add_verb(cli, "build", "geometry of a plant: PLY, OBJ or GLB",
                             "bpms build wheat.bpms -o wheat.ply --also wheat.glb",
                             [&cli, options] { run(cli, *options); });

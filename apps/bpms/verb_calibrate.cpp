@@ -15,17 +15,14 @@
 namespace bpms {
 namespace {
 
-struct Options {
+struct CalibrateArguments {
   std::vector<std::string> images;
   std::string corners, image_size, target, model = "brown4";
   bool no_warp = false;
 };
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 Json vector(const Eigen::Vector3d& v) {
-  return {number(v.x()), number(v.y()), number(v.z())};
+  return {json_number(v.x()), json_number(v.y()), json_number(v.z())};
 }
 
 int parameters_of_model(const std::string& model) {
@@ -54,19 +51,19 @@ Json camera_json(const Calibration& c, std::size_t index) {
     const std::string prefix = camera.name + ".";
     if (!order[i].starts_with(prefix)) continue;
     const auto k = static_cast<Eigen::Index>(i);
-    sigma[order[i].substr(prefix.size())] = number(c.sigma_iid[k]);
+    sigma[order[i].substr(prefix.size())] = json_number(c.sigma_iid[k]);
     clustered[order[i].substr(prefix.size())] =
-        c.sigma_clustered.size() > 0 ? number(c.sigma_clustered[k]) : Json(nullptr);
+        c.sigma_clustered.size() > 0 ? json_number(c.sigma_clustered[k]) : Json(nullptr);
   }
   const std::vector<double>& p = camera.parameters;
   return {{"name", camera.name},
           {"model", camera.model},
           {"width", camera.width_px},
           {"height", camera.height_px},
-          {"fx", number(p[0])},
-          {"fy", number(p[1])},
-          {"cx", number(p[2])},
-          {"cy", number(p[3])},
+          {"fx", json_number(p[0])},
+          {"fy", json_number(p[1])},
+          {"cx", json_number(p[2])},
+          {"cy", json_number(p[3])},
           {"distortion", std::vector<double>(p.begin() + 4, p.end())},
           {"sigma", sigma},
           {"sigma_clustered", clustered}};
@@ -75,10 +72,10 @@ Json camera_json(const Calibration& c, std::size_t index) {
 Json pair_json(const Calibration& c, const Calibration::Pair& pair) {
   return {{"a", c.rig.cameras[static_cast<std::size_t>(pair.a)].name},
           {"b", c.rig.cameras[static_cast<std::size_t>(pair.b)].name},
-          {"baseline_m", number(pair.baseline_m)},
-          {"baseline_sigma_m", number(pair.baseline_sigma_m)},
+          {"baseline_m", json_number(pair.baseline_m)},
+          {"baseline_sigma_m", json_number(pair.baseline_sigma_m)},
           {"baseline_sigma_clustered_m",
-           pair.baseline_sigma_clustered_m ? number(*pair.baseline_sigma_clustered_m) : Json(nullptr)},
+           pair.baseline_sigma_clustered_m ? json_number(*pair.baseline_sigma_clustered_m) : Json(nullptr)},
           {"rotation_deg", vector(pair.rotation_vector * degrees(1.0))},
           {"translation_m", vector(pair.translation_m)}};
 }
@@ -86,8 +83,9 @@ Json pair_json(const Calibration& c, const Calibration::Pair& pair) {
 Json view_json(const Calibration::View& view) {
   Json residuals = Json::array();
   for (const Eigen::Vector4d& r : view.residuals) residuals.push_back({r[0], r[1], r[2], r[3]});
-  return {{"image", view.image},           {"camera", view.camera},   {"frame", view.frame},
-          {"rms_px", number(view.rms_px)}, {"outlier", view.outlier}, {"reason", view.reason},
+  return {{"image", view.image},     {"camera", view.camera},
+          {"frame", view.frame},     {"rms_px", json_number(view.rms_px)},
+          {"outlier", view.outlier}, {"reason", view.reason},
           {"residuals", residuals}};
 }
 
@@ -101,8 +99,8 @@ Json report(const Calibration& c, const Observations& observations, const Target
              {"square_m", target.square_m}}},
            {"cameras", Json::array()},
            {"pairs", Json::array()},
-           {"residual_rms_px", number(c.residual_rms_px)},
-           {"residual_sigma_px", number(c.residual_sigma_px)},
+           {"residual_rms_px", json_number(c.residual_rms_px)},
+           {"residual_sigma_px", json_number(c.residual_sigma_px)},
            {"degrees_of_freedom", c.degrees_of_freedom},
            {"frames", c.frames},
            {"corners_used", c.corners_used},
@@ -110,7 +108,7 @@ Json report(const Calibration& c, const Observations& observations, const Target
            {"views", Json::array()},
            {"skipped", Json::array()},
            {"outliers", Json::array()},
-           {"board_warp_m", {number(c.board_warp_m.x()), number(c.board_warp_m.y())}},
+           {"board_warp_m", {json_number(c.board_warp_m.x()), json_number(c.board_warp_m.y())}},
            {"covariance_kind", c.rig.covariance->kind},
            {"converged", c.converged}};
   for (std::size_t i = 0; i < c.rig.cameras.size(); ++i) out["cameras"].push_back(camera_json(c, i));
@@ -120,12 +118,13 @@ Json report(const Calibration& c, const Observations& observations, const Target
     out["skipped"].push_back({{"image", image}, {"reason", reason}});
   for (const auto& o : c.outliers)
     out["outliers"].push_back(
-        {{"image", o.image}, {"corner", o.corner}, {"residual_px", number(o.residual_px)}});
+        {{"image", o.image}, {"corner", o.corner}, {"residual_px", json_number(o.residual_px)}});
   if (c.half_sets)
-    out["half_sets"] = {{"odd_baseline_m", number(c.half_sets->odd_baseline_m)},
-                        {"even_baseline_m", number(c.half_sets->even_baseline_m)},
-                        {"difference_m", number(c.half_sets->odd_baseline_m - c.half_sets->even_baseline_m)},
-                        {"sigma_clustered_m", number(c.half_sets->sigma_clustered_m)}};
+    out["half_sets"] = {
+        {"odd_baseline_m", json_number(c.half_sets->odd_baseline_m)},
+        {"even_baseline_m", json_number(c.half_sets->even_baseline_m)},
+        {"difference_m", json_number(c.half_sets->odd_baseline_m - c.half_sets->even_baseline_m)},
+        {"sigma_clustered_m", json_number(c.half_sets->sigma_clustered_m)}};
   out["seconds"] = {{"solve", c.solve_seconds}, {"uncertainty", c.uncertainty_seconds}};
   return out;
 }
@@ -148,7 +147,7 @@ void tell(const Calibration& c, const Observations& observations) {
                      pair.baseline_sigma_m * 1e3));
 }
 
-void run(const Cli& cli, const Options& options) {
+void run(const Cli& cli, const CalibrateArguments& options) {
   const std::string& output = require_output(cli);
   const Target target = parse_target(options.target);
   CalibrateOptions settings;
@@ -180,7 +179,7 @@ void run(const Cli& cli, const Options& options) {
 }  // namespace
 
 void add_calibrate(Cli& cli) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateArguments>();
   CLI::App* verb = add_verb(
       cli, "calibrate", "cameras, lenses and poses from images of a target",
       "bpms calibrate --images 'left[0-9]*.jpg' 'right[0-9]*.jpg' --target chessboard:9x6:25mm -o rig.toml",

@@ -13,7 +13,7 @@
 namespace bpms {
 namespace {
 
-struct DescribeOptions {
+struct DescribeArguments {
   std::string file;
   std::uint32_t rays = GapOptions{}.rays;
 };
@@ -27,10 +27,6 @@ Scene read_structure(const std::string& path) {
   if (scene.instances.empty())
     bad_input({path}, "no plants and no [[instances]]: there is no structure to describe");
   return scene;
-}
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 Json gaps_json(const std::vector<Gap>& gaps) {
@@ -47,7 +43,8 @@ Json leaf_angle_json(const FacetStructure& facets) {
                     {"to_deg", bin.to_deg},
                     {"probability", bin.probability},
                     {"density_per_deg", bin.density_per_deg}});
-  return {{"mean_deg", bins.empty() ? Json(nullptr) : number(facets.mean_leaf_angle_deg)}, {"bins", bins}};
+  return {{"mean_deg", bins.empty() ? Json(nullptr) : json_number(facets.mean_leaf_angle_deg)},
+          {"bins", bins}};
 }
 
 Json organs_json(const Scene& scene) {
@@ -60,7 +57,7 @@ Json organs_json(const Scene& scene) {
                      {"label", organ.label},
                      {"kind", organ.kind},
                      {"material", scene.materials[prototype.material_of_organ[k]]},
-                     {"length_m", number(organ.length_m)},
+                     {"length_m", json_number(organ.length_m)},
                      {"area_m2", organ.area_m2},
                      {"plant", prototype.name}});
     }
@@ -84,8 +81,8 @@ Json describe(const Scene& scene, const CanopyStructure& structure) {
           {"ground_area_of", structure.ground_is_domain ? "domain" : "convex_hull"},
           {"lai", ground ? Json(structure.lai) : Json(nullptr)},
           {"height_m", structure.height_m},
-          {"cover", number(1 - down.p)},
-          {"cover_standard_error", number(down.standard_error)},
+          {"cover", json_number(1 - down.p)},
+          {"cover_standard_error", json_number(down.standard_error)},
           {"gap_fraction", gaps_json(structure.gaps)},
           {"g_function", g},
           {"leaf_angle", leaf_angle_json(structure.facets)},
@@ -96,7 +93,7 @@ Json describe(const Scene& scene, const CanopyStructure& structure) {
           {"notes", scene.notes}};
 }
 
-void run(const Cli& cli, const DescribeOptions& options) {
+void run(const Cli& cli, const DescribeArguments& options) {
   const Scene scene = read_structure(options.file);
   for (const std::string& message : scene.notes) note(message);
   Provenance from = provenance(cli, true);
@@ -122,7 +119,7 @@ void run(const Cli& cli, const DescribeOptions& options) {
 }  // namespace
 
 void add_describe(Cli& cli) {
-  auto options = std::make_shared<DescribeOptions>();
+  auto options = std::make_shared<DescribeArguments>();
   CLI::App* verb = add_verb(cli, "describe", "structure of a plant, a canopy or a scene: areas, angles, gaps",
                             "bpms describe canopy.toml --json", [&cli, options] { run(cli, *options); });
   verb->add_option("file", options->file, "plant (.bpms), canopy.toml or scene.toml")->required();

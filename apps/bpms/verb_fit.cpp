@@ -19,7 +19,7 @@
 namespace bpms {
 namespace {
 
-struct Arguments {
+struct FitArguments {
   std::string input, function = "auto", columns, unit, dialect, width, bases = "common";
   bool anchor_base = false;
 };
@@ -29,7 +29,7 @@ struct Measured {
   std::map<std::string, Eigen::Vector3d> buds;  // of the plants that have one
 };
 
-Measured read_organs(const Arguments& arguments) {
+Measured read_organs(const FitArguments& arguments) {
   if (!arguments.columns.empty()) {
     const PolylineColumns columns = parse_polyline_columns(arguments.columns);
     if (arguments.unit.empty())
@@ -83,7 +83,7 @@ void write_plants(const std::string& output, bool overwrite, bool to_folder,
   }
 }
 
-void run(const Cli& cli, const Arguments& arguments) {
+void run(const Cli& cli, const FitArguments& arguments) {
   const std::string& output = require_output(cli);
   FitOptions options;
   options.functions = parse_function_request(arguments.function);
@@ -127,7 +127,7 @@ void run(const Cli& cli, const Arguments& arguments) {
   if (plants.empty())
     bad_input({arguments.input}, "none of the {} organs could be fitted; the first, {}: {}", fits.size(),
               fits[0].measured.str(), fits[0].failure);
-  write_plants(output, cli.common.overwrite, names.size() > 1, plants);
+  write_plants(output, cli.common.overwrite, names.size() > 1 || names_folder(output), plants);
   if (cli.common.json || !cli.common.report.empty()) {
     Json report = fit_report(fits, plants);
     report["input"] = arguments.input;
@@ -145,12 +145,13 @@ void run(const Cli& cli, const Arguments& arguments) {
 }  // namespace
 
 void add_fit(Cli& cli) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* verb = add_verb(cli, "fit", "organ functions from measured polylines: a plant",
-                            "bpms fit vectors.csv -o plant.bpms --report fit.json\n"
-                            "  bpms fit leaves.csv --columns \"leaf=variety+inerv,x=x,z=y\" --unit cm "
-                            "--function p:3 -o leaves.bpms",
-                            [&cli, arguments] { run(cli, *arguments); });
+  auto arguments = std::make_shared<FitArguments>();
+  CLI::App* verb = add_verb(
+      cli, "fit", "organ functions from measured polylines: a plant",
+      "bpms fit vectors.csv -o plant.bpms --report fit.json\n"
+      "  bpms fit leaves.csv --columns \"leaf=variety+inerv,x=x,z=y\" --unit cm "
+      "--function p:3 -o leaves.bpms",
+      [&cli, arguments] { run(cli, *arguments); }, OutputKind::file_or_folder);
   verb->add_option("vectors", arguments->input, "vectors.csv, or a table of polylines with --columns")
       ->required();
   verb->add_option(

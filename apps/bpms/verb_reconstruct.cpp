@@ -18,7 +18,7 @@
 namespace bpms {
 namespace {
 
-struct Options {
+struct ReconstructArguments {
   std::string points, rig, view, up, up_from, origin, disparity_map;
   std::string covariance = "total";
   std::vector<std::string> photographs;
@@ -40,7 +40,8 @@ Eigen::Vector3d direction(const std::string& text) {
   return out;
 }
 
-Json photographs_json(const Options& options, const Rig& rig, const Vectors& vectors, Provenance& made) {
+Json photographs_json(const ReconstructArguments& options, const Rig& rig, const Vectors& vectors,
+                      Provenance& made) {
   Json out = Json::array();
   for (const std::string& text : options.photographs) {
     const std::size_t equals = text.find('=');
@@ -126,7 +127,7 @@ Eigen::Vector3d towards_cameras(const Vectors& vectors, const Rig& rig, const Fr
   return frame.rotation * (cameras - points).normalized();
 }
 
-Json frame_json(const Frame& frame, const Options& options) {
+Json frame_json(const Frame& frame, const ReconstructArguments& options) {
   Json rotation = Json::array();
   for (int i = 0; i < 3; ++i) rotation.push_back(numbers(frame.rotation.row(i)));
   const std::string up = !options.up_from.empty() ? "pot rim" : !options.up.empty() ? "given" : "rig";
@@ -136,7 +137,7 @@ Json frame_json(const Frame& frame, const Options& options) {
           {"origin_in_rig_m", numbers(frame.origin_m)}};
 }
 
-void run(const Cli& cli, const Options& options) {
+void run(const Cli& cli, const ReconstructArguments& options) {
   Provenance made = provenance(cli);
   made.add_input(options.points);
   made.add_input(options.rig);
@@ -187,7 +188,7 @@ void run(const Cli& cli, const Options& options) {
 }  // namespace
 
 void add_reconstruct(Cli& cli) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReconstructArguments>();
   CLI::App* verb = add_verb(
       cli, "reconstruct", "labelled 3-D vectors with covariance from points digitised in the images of a rig",
       "bpms reconstruct points.csv --rig rig.toml -o vectors.csv --up-from pot.csv --origin organ=bud \\\n"

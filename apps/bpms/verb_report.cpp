@@ -11,7 +11,7 @@
 namespace bpms {
 namespace {
 
-struct Options {
+struct ReportArguments {
   std::vector<std::string> files;
   std::string title = "bpms report";
   std::vector<std::string> notes;
@@ -30,7 +30,7 @@ Json read_report(const std::string& path) {
   }
 }
 
-void run(const Cli& cli, const Options& options) {
+void run(const Cli& cli, const ReportArguments& options) {
   Json reports = Json::array();
   for (const std::string& path : options.files) reports.push_back(read_report(path));
   const Json page{{"title", options.title},
@@ -44,7 +44,7 @@ void run(const Cli& cli, const Options& options) {
 }  // namespace
 
 void add_report(Cli& cli) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportArguments>();
   CLI::App* verb = add_verb(cli, "report", "one self-contained page from the reports of several runs",
                             "bpms report calibrate.json reconstruct.json simulate.json -o report.html",
                             [&cli, options] { run(cli, *options); });

@@ -12,29 +12,35 @@
 namespace bpms {
 namespace {
 
-struct Options {
+struct SimulateArguments {
   std::string scene;
   std::string csv;
   std::string target_se;
   std::uint64_t samples = 0;
 };
 
-// OUT.png beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
+// A picture beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
+std::string picture_path(const Cli& cli, const Simulation& simulation, const Sensor& sensor) {
+  std::filesystem::path path = cli.common.output;
+  path.replace_filename(path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor.name : "") +
+                        ".png");
+  return path.string();
+}
+
 void write_quick_looks(const Cli& cli, const Simulation& simulation, const Result& result) {
   for (const SensorResult& sensor : result.sensors) {
     if (!sensor.sensor->is_image()) continue;
-    std::filesystem::path path = cli.common.output;
-    const std::string stem =
-        path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor.sensor->name : "");
-    path.replace_filename(stem + ".png");
-    write_file(path.string(), encode_png(quick_look(simulation, sensor)), cli.common.overwrite);
+    write_file(picture_path(cli, simulation, *sensor.sensor), encode_png(quick_look(simulation, sensor)),
+               cli.common.overwrite);
   }
 }
 
-void run(const Cli& cli, const Options& options) {
+void run(const Cli& cli, const SimulateArguments& options) {
   const std::string& output = require_output(cli);
   if (!options.csv.empty()) require_writable(options.csv, cli.common.overwrite);
   Simulation simulation = read_simulation(options.scene);
+  for (const auto& sensor : simulation.sensors)
+    if (sensor->is_image()) require_writable(picture_path(cli, simulation, *sensor), cli.common.overwrite);
   if (!options.target_se.empty()) set_target_se(simulation.sampling, options.target_se, {"--target-se"});
   if (options.samples > 0) {
     simulation.sampling.samples = options.samples;
@@ -60,7 +66,7 @@ void run(const Cli& cli, const Options& options) {
 }  // namespace
 
 void add_simulate(Cli& cli) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateArguments>();
   CLI::App* verb = add_verb(
       cli, "simulate", "trace light through a scene to its sensors: radiance, reflectance and their parts",
       "bpms simulate scene.toml -o out.nc --csv out.csv --report out.html",

@@ -10,9 +10,8 @@ std::vector<PlantingSite> plant_list(const TomlValue& planting, PlantingField& f
   const TomlValue positions = planting.require("positions");
   std::vector<std::vector<double>> rows;
   if (positions.is_string()) {
-    rows = read_number_table(positions.file_relative(positions.string()), 2, 4,
-                             "x y [z [rotation_deg]] in metres and degrees")
-               .rows;
+    field.inputs.push_back(positions.file_relative(positions.string()));
+    rows = read_number_table(field.inputs.back(), 2, 4, "x y [z [rotation_deg]] in metres and degrees").rows;
   } else {
     for (std::size_t i = 0; i < positions.size(); ++i) {
       rows.push_back(positions[i].numbers());

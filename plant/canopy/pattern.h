@@ -16,6 +16,7 @@ struct PlantingField {
   bool periodic;
   Philox random;
   std::vector<std::string> notes;
+  std::vector<std::string> inputs;  // files that the pattern read
 
   double area_m2() const { return size_m.x() * size_m.y(); }
   // Into the domain [-size/2, size/2) of a periodic field.

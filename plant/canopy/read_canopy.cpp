@@ -89,13 +89,14 @@ Canopy read_canopy(const std::string& path, std::optional<std::uint64_t> seed) {
   if (const TomlValue terrain = root.get("terrain")) terrain.reject("terrain is not built yet");
 
   const TomlValue planting = root.require("planting");
-  PlantingField field{canopy.size_m, canopy.periodic, Philox(canopy.seed, pattern_stream), {}};
+  PlantingField field{canopy.size_m, canopy.periodic, Philox(canopy.seed, pattern_stream), {}, {}};
   const std::vector<PlantingSite> sites = find_pattern(planting.require("pattern"))(planting, field);
   const TomlValue depth_key = planting.get("depth_m");
   const MeanSd depth = depth_key ? mean_sd(depth_key) : MeanSd{};
   document.finish();
 
   canopy.notes.insert(canopy.notes.end(), field.notes.begin(), field.notes.end());
+  canopy.inputs.insert(canopy.inputs.end(), field.inputs.begin(), field.inputs.end());
   canopy.placements.reserve(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     Philox random(canopy.seed, first_plant_stream + i);

@@ -18,7 +18,8 @@ struct OrganFunctionKind {
 
 // The pairs l1 v1 l2 v2 ... of the kinds that go through knots: at least two, l rising strictly from 0 to 1.
 void require_knots(char code, const std::vector<double>& numbers, const SourceLocation& where);
-std::vector<double> even_knots(int count);  // l evenly spread, values zero
+std::vector<double> even_knots(int count);         // l evenly spread, values zero
+std::vector<double> zero_coefficients(int order);  // of the series: order + 1 of them
 // Index i of the interval [l_i, l_i+1) that holds l; the first or the last one outside.
 std::size_t knot_interval(std::span<const double> knots, double l);
 

@@ -65,6 +65,10 @@ std::vector<double> even_knots(int count) {
   return out;
 }
 
+std::vector<double> zero_coefficients(int order) {
+  return std::vector<double>(static_cast<std::size_t>(order) + 1, 0.0);
+}
+
 std::size_t knot_interval(std::span<const double> knots, double l) {
   const auto after = std::upper_bound(knots.begin() + 1, knots.end() - 1, l);
   return static_cast<std::size_t>(after - knots.begin()) - 1;

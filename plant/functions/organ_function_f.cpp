@@ -38,17 +38,16 @@ class CosineSeries final : public ScaledFunction {
   }
 };
 
-std::unique_ptr<OrganFunction> make(std::vector<double> numbers, double scale, const SourceLocation&) {
+std::unique_ptr<OrganFunction> make_cosine_series(std::vector<double> numbers, double scale,
+                                                  const SourceLocation&) {
   return std::make_unique<CosineSeries>(std::move(numbers), scale);
-}
-std::vector<double> blank(int order) {
-  return std::vector<double>(static_cast<std::size_t>(order) + 1, 0.0);
 }
 
 }  // namespace
 
 OrganFunctionKind cosine_series_kind() {
-  return {'f', "cosine series", "coefficients a0 a1 a2 ... of 1 cos(pi l) cos(2 pi l) ...", make, blank};
+  return {'f', "cosine series", "coefficients a0 a1 a2 ... of 1 cos(pi l) cos(2 pi l) ...",
+          make_cosine_series, zero_coefficients};
 }
 
 }  // namespace bpms

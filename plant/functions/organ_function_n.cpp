@@ -40,7 +40,8 @@ class PiecewiseLinear final : public ScaledFunction {
   std::vector<double> knots_;
 };
 
-std::unique_ptr<OrganFunction> make(std::vector<double> numbers, double scale, const SourceLocation& where) {
+std::unique_ptr<OrganFunction> make_piecewise_linear(std::vector<double> numbers, double scale,
+                                                     const SourceLocation& where) {
   require_knots('n', numbers, where);
   return std::make_unique<PiecewiseLinear>(std::move(numbers), scale);
 }
@@ -48,7 +49,7 @@ std::unique_ptr<OrganFunction> make(std::vector<double> numbers, double scale, c
 }  // namespace
 
 OrganFunctionKind piecewise_linear_kind() {
-  return {'n', "piecewise linear", "pairs l value, l rising from 0 to 1", make, even_knots};
+  return {'n', "piecewise linear", "pairs l value, l rising from 0 to 1", make_piecewise_linear, even_knots};
 }
 
 }  // namespace bpms

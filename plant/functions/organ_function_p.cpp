@@ -29,17 +29,16 @@ class PowerSeries final : public ScaledFunction {
   }
 };
 
-std::unique_ptr<OrganFunction> make(std::vector<double> numbers, double scale, const SourceLocation&) {
+std::unique_ptr<OrganFunction> make_power_series(std::vector<double> numbers, double scale,
+                                                 const SourceLocation&) {
   return std::make_unique<PowerSeries>(std::move(numbers), scale);
-}
-std::vector<double> blank(int order) {
-  return std::vector<double>(static_cast<std::size_t>(order) + 1, 0.0);
 }
 
 }  // namespace
 
 OrganFunctionKind power_series_kind() {
-  return {'p', "power series", "coefficients c0 c1 c2 ... of 1 l l^2 ...", make, blank};
+  return {'p', "power series", "coefficients c0 c1 c2 ... of 1 l l^2 ...", make_power_series,
+          zero_coefficients};
 }
 
 }  // namespace bpms

@@ -84,7 +84,8 @@ class CubicSpline final : public ScaledFunction {
   Eigen::VectorXd second_;
 };
 
-std::unique_ptr<OrganFunction> make(std::vector<double> numbers, double scale, const SourceLocation& where) {
+std::unique_ptr<OrganFunction> make_cubic_spline(std::vector<double> numbers, double scale,
+                                                 const SourceLocation& where) {
   require_knots('s', numbers, where);
   return std::make_unique<CubicSpline>(std::move(numbers), scale);
 }
@@ -92,7 +93,7 @@ std::unique_ptr<OrganFunction> make(std::vector<double> numbers, double scale, c
 }  // namespace
 
 OrganFunctionKind cubic_spline_kind() {
-  return {'s', "natural cubic spline", "pairs l value, l rising from 0 to 1", make, even_knots};
+  return {'s', "natural cubic spline", "pairs l value, l rising from 0 to 1", make_cubic_spline, even_knots};
 }
 
 }  // namespace bpms

@@ -143,8 +143,9 @@ class SceneReader {
   std::uint32_t prototype_number(const TomlValue& which) const {
     const std::string name = which.string();
     std::vector<std::string> known;
-    for (std::uint32_t i = 0; i < scene_.prototypes.size(); ++i) {
-      if (scene_.prototypes[i].name == name) return i;
+    for (std::size_t i = scene_.prototypes.size();
+         i-- > 0;) {  // the file's own before the canopy's of one name
+      if (scene_.prototypes[i].name == name) return static_cast<std::uint32_t>(i);
       known.push_back(scene_.prototypes[i].name);
     }
     bad_input(which.where(), "there is no [prototypes.{}]{}", name, did_you_mean(name, known));

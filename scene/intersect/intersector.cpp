@@ -211,10 +211,10 @@ void Intersector::Impl::describe(const Found& found, Hit& hit) const {
     hit.organ = 0xffffffffu;
   } else {
     const Mesh& mesh = *prototype.mesh;
-    const auto& [a, b, c] = mesh.triangles[id.primitive];
-    const float w = 1 - what.u - what.v;
+    const std::array<std::uint32_t, 3>& corners = mesh.triangles[id.primitive];
+    const float u = what.u, v = what.v, w = 1 - u - v;
     const auto interpolate = [&](const auto& of) -> std::decay_t<decltype(of[0])> {
-      return w * of[a] + what.u * of[b] + what.v * of[c];
+      return w * of[corners[0]] + u * of[corners[1]] + v * of[corners[2]];
     };
     position = traced.to_world(what, interpolate(mesh.positions_m));
     if (!mesh.uv.empty()) hit.uv = interpolate(mesh.uv);

@@ -4,7 +4,7 @@
 
 namespace bpms {
 namespace {
-const std::map<std::string, MaterialReader> kinds{
+const std::map<std::string, MaterialReader> material_kinds{
     {"lambertian", read_lambertian},
     {"bilambertian", read_bilambertian},
 };
@@ -13,9 +13,9 @@ const std::map<std::string, MaterialReader> kinds{
 Material read_material(const TomlValue& table, const std::string& name, const Bands& bands,
                        std::vector<std::string>& inputs) {
   std::vector<std::string> names;
-  for (const auto& kind : kinds) names.push_back(kind.first);
+  for (const auto& kind : material_kinds) names.push_back(kind.first);
   const std::string type = table.require("type").one_of(names);
-  Material out = kinds.at(type)(table, bands, inputs);
+  Material out = material_kinds.at(type)(table, bands, inputs);
   out.name = name;
   out.type = type;
   require_energy(out, table, bands);

@@ -33,6 +33,11 @@ Table read_table(const std::string& path) {
     std::string line = text.substr(at, end - at);
     at = end + 1;
     ++line_number;
+    if (const std::size_t semicolon = line.find(';'), comma = line.find(',');
+        semicolon != std::string::npos && comma != std::string::npos &&
+        line.find('#') > std::max(semicolon, comma))
+      bad_input({path, line_number}, "found {} with both ; and ,: expected points as decimal signs",
+                in_quotes(line));
     std::replace_if(
         line.begin(), line.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
     TokenReader reader(path, line);

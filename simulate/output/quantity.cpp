@@ -1,7 +1,5 @@
 #include "simulate/output/quantity.h"
 
-#include <limits>
-
 #include "core/units.h"
 
 namespace bpms {
@@ -17,7 +15,7 @@ std::vector<double> reflectance_scale(const Light& light, Origin origin, std::si
   for (std::size_t band = 0; band < bands; ++band) {
     const double irradiance =
         (origin != Origin::diffuse ? direct[band] : 0.0) + (origin != Origin::direct ? diffuse[band] : 0.0);
-    out[band] = irradiance > 0 ? pi / irradiance : std::numeric_limits<double>::quiet_NaN();
+    out[band] = irradiance > 0 ? pi / irradiance : no_value;
   }
   return out;
 }

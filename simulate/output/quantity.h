@@ -2,9 +2,14 @@
 // irradiance of their origin: brf under the sun, hdrf as soon as there is a sky (total: over the whole
 // irradiance; direct, diffuse: over the part's own).
 #pragma once
+#include <limits>
+
 #include "simulate/simulate.h"
 
 namespace bpms {
+
+inline constexpr double no_value =
+    std::numeric_limits<double>::quiet_NaN();  // where a quantity does not apply
 
 // "brf" with the sun alone, "hdrf" with a sky.
 const char* reflectance_name(const Light& light);

@@ -1,13 +1,9 @@
-#include <limits>
-
 #include "core/csv.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
 
 namespace bpms {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 class Rows {
  public:
@@ -22,9 +18,9 @@ class Rows {
     out += quantity;
     field(csv_field(sensor_->name));
     field(band < 0 ? "" : std::to_string(band + 1));
-    field(csv_number(band < 0 || nm.empty() ? none : nm[static_cast<std::size_t>(band)]));
-    field(csv_number(light.sun ? light.sun->zenith_deg : none));
-    field(csv_number(light.sun ? light.sun->azimuth_deg : none));
+    field(csv_number(band < 0 || nm.empty() ? no_value : nm[static_cast<std::size_t>(band)]));
+    field(csv_number(light.sun ? light.sun->zenith_deg : no_value));
+    field(csv_number(light.sun ? light.sun->azimuth_deg : no_value));
     field(csv_number(sensor_->vza_deg(view)));
     field(csv_number(sensor_->vaa_deg(view)));
     field(origin);

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "simulate/output/netcdf.h"
@@ -8,8 +7,6 @@
 
 namespace bpms {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // Writes the variables of one sensor.
 class SensorVariables {
@@ -76,8 +73,8 @@ class SensorVariables {
         "sensor_zenith_angle");
     put("vaa", vaa, "view azimuth angle, towards the sensor", "sensor_azimuth_angle");
     if (!prefix_.empty()) return;
-    sza.assign(vza.size(), sun ? sun->zenith_deg : none);
-    saa.assign(vza.size(), sun ? sun->azimuth_deg : none);
+    sza.assign(vza.size(), sun ? sun->zenith_deg : no_value);
+    saa.assign(vza.size(), sun ? sun->azimuth_deg : no_value);
     put("sza", sza, "sun zenith angle, towards the sun", "solar_zenith_angle");
     put("saa", saa, "sun azimuth angle, towards the sun", "solar_azimuth_angle");
   }
@@ -92,8 +89,8 @@ class SensorVariables {
       for (std::size_t band = 0; band < bands_; ++band) {
         const std::size_t from = view * bands_ + band, to = from * stride + offset;
         const bool known = result_.samples[view] > 0;
-        value[to] = known ? result_.radiance[part].value[from] * scale[band] : none;
-        error[to] = known ? result_.radiance[part].standard_error[from] * scale[band] : none;
+        value[to] = known ? result_.radiance[part].value[from] * scale[band] : no_value;
+        error[to] = known ? result_.radiance[part].standard_error[from] * scale[band] : no_value;
       }
     }
   }
@@ -185,7 +182,7 @@ class SensorVariables {
       std::vector<double> value = of.value, error = of.standard_error;
       const std::size_t each = value.size() / std::max<std::size_t>(1, result_.samples.size());
       for (std::size_t i = 0; i < value.size(); ++i)
-        if (result_.samples[i / each] == 0) value[i] = error[i] = none;
+        if (result_.samples[i / each] == 0) value[i] = error[i] = no_value;
       file_.variable(prefix_ + name, dimensions, value,
                      {{"units", "1"}, {"long_name", what}, {"ancillary_variables", prefix_ + name + "_se"}});
       file_.variable(prefix_ + name + "_se", dimensions, error,
@@ -241,7 +238,7 @@ void write_netcdf(const Simulation& simulation, const Result& result, const Prov
   write_globals(file, simulation, result, provenance);
   const auto& nm = simulation.bands.wavelengths_nm;
   file.dimension("band", simulation.bands.count());
-  file.variable("wavelength", {"band"}, nm.empty() ? std::vector<double>{none} : nm,
+  file.variable("wavelength", {"band"}, nm.empty() ? std::vector<double>{no_value} : nm,
                 {{"units", "nm"}, {"long_name", "wavelength"}, {"standard_name", "radiation_wavelength"}});
   if (simulation.light.sun && simulation.light.sky) {
     file.dimension("origin", 3);

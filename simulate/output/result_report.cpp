@@ -8,9 +8,6 @@
 namespace bpms {
 namespace {
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 Json wavelength(const Bands& bands, std::size_t band) {
   return bands.wavelengths_nm.empty() ? Json(nullptr) : Json(bands.wavelengths_nm[band]);
 }
@@ -30,10 +27,10 @@ Curve curve_over_views(const SensorResult& result, const Estimates& of, std::siz
   Curve out;
   for (std::size_t view = 0; view < result.samples.size(); ++view) {
     if (result.samples[view] == 0) continue;
-    out.vza.push_back(number(result.sensor->vza_deg(view)));
-    out.vaa.push_back(number(result.sensor->vaa_deg(view)));
-    out.value.push_back(number(of.value[view * stride + offset] * scale));
-    out.error.push_back(number(of.standard_error[view * stride + offset] * scale));
+    out.vza.push_back(json_number(result.sensor->vza_deg(view)));
+    out.vaa.push_back(json_number(result.sensor->vaa_deg(view)));
+    out.value.push_back(json_number(of.value[view * stride + offset] * scale));
+    out.error.push_back(json_number(of.standard_error[view * stride + offset] * scale));
   }
   return out;
 }
@@ -89,13 +86,13 @@ void add_spectra(const Simulation& simulation, const SensorResult& result, Json&
     Json nm = Json::array(), value = Json::array(), error = Json::array();
     for (std::size_t band = 0; band < bands; ++band) {
       nm.push_back(wavelength(simulation.bands, band));
-      value.push_back(number(result.radiance[0].value[view * bands + band] * scale[band]));
-      error.push_back(number(result.radiance[0].standard_error[view * bands + band] * scale[band]));
+      value.push_back(json_number(result.radiance[0].value[view * bands + band] * scale[band]));
+      error.push_back(json_number(result.radiance[0].standard_error[view * bands + band] * scale[band]));
     }
     out.push_back({{"sensor", result.sensor->name},
                    {"quantity", reflectance_name(simulation.light)},
-                   {"vza_deg", number(result.sensor->vza_deg(view))},
-                   {"vaa_deg", number(result.sensor->vaa_deg(view))},
+                   {"vza_deg", json_number(result.sensor->vza_deg(view))},
+                   {"vaa_deg", json_number(result.sensor->vaa_deg(view))},
                    {"sza_deg", sun_angle(simulation.light, true)},
                    {"wavelength_nm", nm},
                    {"value", value},
@@ -121,7 +118,7 @@ Json sensor_summary(const Simulation& simulation, const SensorResult& result) {
            {"samples", samples},
            {"rays", result.rays},
            {"lost_paths", result.lost},
-           {"largest_standard_error", number(worst)}};
+           {"largest_standard_error", json_number(worst)}};
   if (!per_view.empty()) out["samples_per_view"] = per_view;
   if (!result.truncation.empty()) {
     double most = 0;

@@ -27,7 +27,8 @@ class PerspectiveSensor : public Sensor {
 
   Ray start(std::size_t view, double u, double v, const Extent&) const override {
     const auto column = static_cast<double>(view % static_cast<std::size_t>(columns));
-    const auto row = static_cast<double>(view / static_cast<std::size_t>(columns));
+    const std::size_t row_number = view / static_cast<std::size_t>(columns);
+    const auto row = static_cast<double>(row_number);
     const double scale = 2.0 * semi_height / rows;
     const double x = (column + u - 0.5 * columns) * scale;
     const double y = (row + v - 0.5 * rows) * scale;

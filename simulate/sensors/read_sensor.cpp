@@ -4,8 +4,8 @@
 
 namespace bpms {
 namespace {
-using Reader = std::unique_ptr<Sensor> (*)(const TomlValue&, const Domain&, const Light&);
-const std::map<std::string, Reader> kinds{
+using SensorReader = std::unique_ptr<Sensor> (*)(const TomlValue&, const Domain&, const Light&);
+const std::map<std::string, SensorReader> sensor_kinds{
     {"brf", read_brf_sensor},
     {"perspective", read_perspective_sensor},
 };
@@ -15,13 +15,13 @@ std::unique_ptr<Sensor> read_sensor(const TomlValue& table, const Domain& domain
   const TomlValue name = table.require("name");
   if (name.string().empty()) name.reject("expected a name");
   std::vector<std::string> known;
-  for (const auto& kind : kinds) known.push_back(kind.first);
+  for (const auto& kind : sensor_kinds) known.push_back(kind.first);
   const TomlValue type = table.require("type");
   for (const char* later : {"orthographic", "spherical", "albedo", "lidar", "flux"})
     if (type.is_string() && type.string() == later)
       type.reject(
           fmt::format("sensors of type \"{}\" are not built yet: expected brf or perspective", later));
-  auto out = kinds.at(type.one_of(known))(table, domain, light);
+  auto out = sensor_kinds.at(type.one_of(known))(table, domain, light);
   out->name = name.string();
   out->type = type.string();
   return out;
