@@ -10,27 +10,11 @@
 namespace bpms::test {
 namespace {
 
-const std::string scene_text = R"(
-[domain]
-size_m = [2.0, 2.0]
-[materials.soil]
-type = "lambertian"
-reflectance = [[400, 0.1], [900, 0.3]]
-[ground]
-type = "plane"
-material = "soil"
-[illumination]
-sun = { zenith_deg = 40.0, azimuth_deg = 120.0, irradiance = "brf" }
-[[sensors]]
-name = "pp"
-type = "brf"
-plane = "principal"
-vza_deg = [-30.0, 0.0, 30.0]
-[bands]
-wavelengths_nm = [650.0, 850.0]
-[sampling]
-samples = 64
-)";
+const SceneText three_views{.soil = lambertian("[[400, 0.1], [900, 0.3]]"),
+                            .sun = sun_at(40, 120),
+                            .sensor = principal_plane("[-30, 0, 30]"),
+                            .wavelengths_nm = "[650, 850]",
+                            .sampling = "samples = 64"};
 
 std::string output_of(const std::string& command) {
   FILE* pipe = popen((command + " 2>&1").c_str(), "r");
@@ -42,7 +26,7 @@ std::string output_of(const std::string& command) {
 
 TEST(Output, CsvHasTheColumnsOfTheContract) {
   const TemporaryFolder folder;
-  const Simulation scene = simulation_of(folder, scene_text);
+  const Simulation scene = simulation_of(folder, three_views);
   const Result result = simulate(scene, 1);
   const CsvTable table = CsvTable::parse("out.csv", result_csv(scene, result));
   const std::vector<std::string> expected{"quantity", "sensor",   "band",    "wavelength_nm", "sza_deg",
@@ -66,7 +50,7 @@ TEST(Output, NetcdfOpensInXarrayWithNamedCoordinates) {
     if (data_required()) FAIL() << "python3-xarray, python3-netcdf4 are absent: run scripts/setup";
     GTEST_SKIP() << "needs python3-xarray, python3-netcdf4";
   }
-  const Simulation scene = simulation_of(folder, scene_text);
+  const Simulation scene = simulation_of(folder, three_views);
   write_netcdf(scene, simulate(scene, 1), {"bpms simulate", 1, {}}, folder / "out.nc", false);
   const std::string said =
       output_of("/usr/bin/python3 -c 'import xarray as x; d = x.open_dataset(\"" + folder / "out.nc" +
@@ -81,7 +65,7 @@ TEST(Output, NetcdfOpensInXarrayWithNamedCoordinates) {
 
 TEST(Output, ReportHasTheKeysOfTheContract) {
   const TemporaryFolder folder;
-  const Simulation scene = simulation_of(folder, scene_text);
+  const Simulation scene = simulation_of(folder, three_views);
   const Json report = result_report(scene, simulate(scene, 3));
   for (const char* key : {"sensors", "samples", "seconds", "rays", "threads", "stopped_by", "seed", "version",
                           "series", "spectra", "images"})

@@ -38,38 +38,16 @@ TEST(Reference, HomogeneousDiscCanopyInRedAndNearInfrared) {
   for (std::size_t row = 0; row < reference.rows(); ++row)
     angles += std::string(reference.text(row, 0)) + ", ";
   const TemporaryFolder folder;
-  const Simulation scene = simulation_of(folder, R"(
-[domain]
-size_m = [25.0, 25.0]
-[materials.leaf]
-type = "bilambertian"
-reflectance = [[650, 0.0546], [850, 0.4957]]
-transmittance = [[650, 0.0149], [850, 0.4409]]
-[materials.soil]
-type = "lambertian"
-reflectance = [[650, 0.127], [850, 0.159]]
-[ground]
-type = "plane"
-material = "soil"
-[prototypes.canopy]
-discs = ")" + data + R"(hom_discs.def.gz"
-material = "leaf"
-[[instances]]
-prototype = "canopy"
-positions = [[0.0, 0.0, 0.0]]
-[illumination]
-sun = { zenith_deg = 20.0, azimuth_deg = 0.0, irradiance = "brf" }
-[[sensors]]
-name = "pp"
-type = "brf"
-plane = "principal"
-vza_deg = [)" + angles + R"(]
-[bands]
-wavelengths_nm = [650, 850]
-[sampling]
-samples = 65536
-)");
-  const SensorResult result = simulate(scene, 11).sensors.at(0);
+  const SceneText scene{
+      .domain = "size_m = [25, 25]",
+      .leaf = bilambertian("[[650, 0.0546], [850, 0.4957]]", "[[650, 0.0149], [850, 0.4409]]"),
+      .soil = lambertian("[[650, 0.127], [850, 0.159]]"),
+      .discs = data + "hom_discs.def.gz",
+      .sun = sun_at(20, 0),
+      .sensor = principal_plane("[" + angles + "]"),
+      .wavelengths_nm = "[650, 850]",
+      .sampling = "samples = 65536"};
+  const SensorResult result = sensor_result(folder, scene, 11);
   for (const int band : {0, 1}) {
     double chi2 = 0;
     for (std::size_t view = 0; view < reference.rows(); ++view) {
@@ -91,41 +69,15 @@ TEST(Reference, RamiHet01InTheNearInfrared) {
   const CsvTable reference =
       CsvTable::parse("het01_brfpp_ref.csv", without_comments(read_text(data + "het01_brfpp_ref.csv")));
   const TemporaryFolder folder;
-  const Simulation scene = simulation_of(folder, R"(
-[domain]
-size_m = [100.0, 100.0]
-boundary = "periodic"
-azimuth_convention = "east_counterclockwise"
-[materials.leaf]
-type = "bilambertian"
-reflectance = 0.4957
-transmittance = 0.4409
-[materials.soil]
-type = "lambertian"
-reflectance = 0.159
-[ground]
-type = "plane"
-height_m = 0.0
-material = "soil"
-[prototypes.crown]
-discs = ")" + data + R"(het01_UNI_sphere.def"
-material = "leaf"
-[[instances]]
-prototype = "crown"
-positions = ")" + data + R"(het01_UNI_instances.def"
-[illumination]
-sun = { zenith_deg = 20.0, azimuth_deg = 0.0, irradiance = "brf" }
-[[sensors]]
-name = "pp"
-type = "brf"
-plane = "principal"
-vza_deg = { from = -75.0, to = 75.0, step = 2.0 }
-[bands]
-wavelengths_nm = [850.0]
-[sampling]
-samples = 16384
-)");
-  const SensorResult result = simulate(scene, 11).sensors.at(0);
+  const SceneText scene{.domain = "size_m = [100, 100]\nazimuth_convention = \"east_counterclockwise\"",
+                        .leaf = bilambertian("0.4957", "0.4409"),
+                        .soil = lambertian("0.159"),
+                        .discs = data + "het01_UNI_sphere.def",
+                        .positions = "\"" + data + "het01_UNI_instances.def\"",
+                        .sun = sun_at(20, 0),
+                        .sensor = principal_plane("{ from = -75, to = 75, step = 2 }"),
+                        .sampling = "samples = 16384"};
+  const SensorResult result = sensor_result(folder, scene, 11);
   ASSERT_EQ(reference.rows(), result.samples.size());
   // The reference's radiance variance becomes a BRF's by (pi / E)^2 = (brf / radiance)^2.
   double chi2 = 0;
