@@ -5,6 +5,7 @@
 
 #include "core/units.h"
 #include "tests/simulate/scene_text.h"
+#include "tests/simulate/spread.h"
 
 namespace bpms::test {
 namespace {
@@ -51,7 +52,7 @@ TEST(Canopy, RouletteLeavesTheMeanAlone) {
 TEST(Canopy, GapAndSunlitGroundFollowTheExponentialLaw) {
   constexpr int draws = 8;
   constexpr double lai = 1.0, sza = 30.0, vza = 50.0, g = 0.5;
-  double gap[draws], lit[draws];
+  std::vector<double> gap, lit;
   for (int draw = 0; draw < draws; ++draw) {
     const TemporaryFolder folder;
     SceneText text = canopy_text(folder, {.lai = lai,
@@ -64,18 +65,15 @@ TEST(Canopy, GapAndSunlitGroundFollowTheExponentialLaw) {
     text.sampling = "samples = 32768\nmax_order = 1";
     const Simulation scene = simulation_of(folder, text);
     const SensorResult result = simulate(scene, 1).sensors.at(0);
-    gap[draw] = result.gap.value[0];
+    gap.push_back(result.gap.value[0]);
     const std::size_t soil = scene.materials[0].name == "soil" ? 0 : 1;
-    lit[draw] = result.sunlit.value[soil];
+    lit.push_back(result.sunlit.value[soil]);
   }
-  const auto expect = [&](const double* values, double expected, const char* what) {
-    double mean = 0, squares = 0;
-    for (int i = 0; i < draws; ++i) mean += values[i] / draws;
-    for (int i = 0; i < draws; ++i) squares += (values[i] - mean) * (values[i] - mean);
-    const double error = std::sqrt(squares / (draws * (draws - 1)));
-    EXPECT_LT(error, 0.02 * expected) << what;
-    EXPECT_LT(std::abs(mean - expected), 4.5 * error)
-        << what << " " << mean << " +- " << error << ", expected " << expected;
+  const auto expect = [](const std::vector<double>& values, double expected, const char* what) {
+    const Mean found = mean_of(values);
+    EXPECT_LT(found.error, 0.02 * expected) << what;
+    EXPECT_LT(std::abs(found.value - expected), 4.5 * found.error)
+        << what << " " << found.value << " +- " << found.error << ", expected " << expected;
   };
   expect(gap, std::exp(-g * lai / std::cos(radians(vza))), "gap");
   expect(lit, std::exp(-g * lai * (1 / std::cos(radians(sza)) + 1 / std::cos(radians(vza)))),

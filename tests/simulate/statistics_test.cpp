@@ -46,8 +46,12 @@ TEST(Statistics, StandardErrorsCoverAsStudentsTSays) {
 
 TEST(Statistics, SameBitsOnAnyNumberOfThreads) {
   const TemporaryFolder folder;
-  for (const char* sampling : {"samples = 4096\n", "target_se = \"1%\"\n"}) {
-    const Simulation scene = simulation_of(folder, one_disc(folder, sampling));
+  const SceneText views = one_disc(folder, "samples = 4096"),
+                  to_target = one_disc(folder, "target_se = \"1%\"");
+  SceneText image = one_disc(folder, "samples = 32");
+  image.sensor = camera("[0, 0, 3]", "look_at = [0.2, 0, 0]\nup = [0, 1, 0]\nfov_deg = 20", 24, 16);
+  for (const SceneText& text : {views, to_target, image}) {
+    const Simulation scene = simulation_of(folder, text);
     set_threads(1);
     const SensorResult one = simulate(scene, 5).sensors[0];
     for (const int count : {2, 7}) {
@@ -59,6 +63,7 @@ TEST(Statistics, SameBitsOnAnyNumberOfThreads) {
         EXPECT_EQ(many.radiance[p].standard_error, one.radiance[p].standard_error);
       }
       EXPECT_EQ(many.sunlit.value, one.sunlit.value);
+      EXPECT_EQ(many.gap.value, one.gap.value);
     }
     set_threads(0);
   }

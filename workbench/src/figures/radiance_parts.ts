@@ -36,7 +36,10 @@ function panelsOf(bands: BandGroup[], yTitle: string, draw: (band: BandGroup, at
 }
 
 export function scatteringParts(r: Simulate, s: Section): void {
-  const chosen = first(r.series.filter((x) => radiometric(x) && x.order === null && x.material === null && (x.origin ?? "total") === "total" && x.component !== null));
+  // Components are those of direct light; under a sky its own share is the direct one.
+  const parts = r.series.filter((x) => radiometric(x) && x.order === null && x.material === null && x.component !== null);
+  const origin = parts.find((x) => x.component !== "all")?.origin ?? "total";
+  const chosen = first(parts.filter((x) => (x.origin ?? "total") === origin));
   if (!chosen.some((x) => x.component !== "all")) return;
   const order = Object.keys(componentNames);
   const spec = panelsOf(byBand(chosen), quantityName(chosen[0]?.quantity ?? null), (band, at) =>
@@ -44,7 +47,7 @@ export function scatteringParts(r: Simulate, s: Section): void {
       .sort((a, b) => order.indexOf(a.component ?? "") - order.indexOf(b.component ?? ""))
       .map((x, i) => line(x, componentNames[x.component ?? ""] ?? x.component ?? "", componentColours[x.component ?? ""] ?? colour(i), at)),
   );
-  s.plot("components", spec, "Single scattering by the ground through the gaps, single scattering by the canopy, and multiple scattering; together they are the whole.");
+  s.plot("components", spec, `Single scattering by the ground through the gaps, single scattering by the canopy, and multiple scattering; together they are the whole${origin === "direct" ? " of the sun's light" : ""}.`);
 }
 
 export function lightParts(r: Simulate, s: Section): void {

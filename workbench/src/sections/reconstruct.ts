@@ -65,12 +65,12 @@ function checkFigure(r: Reconstruct, s: Section): void {
       height: 360,
       data: [
         { type: "bar", name: "used", x: good.centres, y: good.counts, marker: { color: colour(2) } },
-        { type: "bar", name: "rejected", x: bad.centres, y: bad.counts, marker: { color: rejected } },
+        ...(bad.counts.some((n) => n > 0) ? [{ type: "bar" as const, name: "rejected", x: bad.centres, y: bad.counts, marker: { color: rejected } }] : []),
       ],
       layout: {
         barmode: "stack",
         bargap: 0.04,
-        xaxis: { title: axisTitle("|ΔZ| / σ"), range: [0, top] },
+        xaxis: { title: axisTitle("|ΔZ| / σ"), range: [0, top], ...(top === 12 ? { tickvals: [0, 2, 4, 6, 8, 10, 12], ticktext: ["0", "2", "4", "6", "8", "10", "12 and above"] } : {}) },
         yaxis: { title: axisTitle("points"), range: [0, 1.18 * Math.max(...good.counts.map((n, i) => n + (bad.counts[i] ?? 0)))] },
         shapes: line ? [line.shape] : [],
         annotations: line ? [line.annotation] : [],
