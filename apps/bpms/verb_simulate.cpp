@@ -17,17 +17,18 @@ struct Options {
   std::string csv;
   std::string target_se;
   std::uint64_t samples = 0;
+  bool image_origins = false;
 };
 
 // OUT.png beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
 void write_quick_looks(const Cli& cli, const Simulation& simulation, const Result& result) {
-  for (const SensorResult& sensor : result.sensors) {
-    if (!sensor.sensor->is_image()) continue;
+  for (std::size_t i = 0; i < result.sensors.size(); ++i) {
+    if (!result.sensors[i].sensor->is_image()) continue;
     std::filesystem::path path = cli.common.output;
     const std::string stem =
-        path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor.sensor->name : "");
+        path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor_identifier(simulation, i) : "");
     path.replace_filename(stem + ".png");
-    write_file(path.string(), encode_png(quick_look(simulation, sensor)), cli.common.overwrite);
+    write_file(path.string(), encode_png(quick_look(simulation, result.sensors[i])), cli.common.overwrite);
   }
 }
 
@@ -46,7 +47,7 @@ void run(const Cli& cli, const Options& options) {
   for (const std::string& input : simulation.inputs) from.add_input(input);
 
   const Result result = simulate(simulation, cli.common.seed);
-  write_netcdf(simulation, result, from, output, cli.common.overwrite);
+  write_netcdf(simulation, result, from, output, {cli.common.overwrite, options.image_origins});
   if (!options.csv.empty()) write_file(options.csv, result_csv(simulation, result), cli.common.overwrite);
   write_quick_looks(cli, simulation, result);
   deliver_report(cli, "simulate", result_report(simulation, result), from);
@@ -72,6 +73,8 @@ void add_simulate(Cli& cli) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000'000}));
   verb->add_option("--target-se", options->target_se, "standard error of each view's total: 0.0002 or 0.1%")
       ->excludes("--samples");
+  verb->add_flag("--image-origins", options->image_origins,
+                 "keep the pixels of images by origin of the light too: total, direct, diffuse");
 }
 
 }  // namespace bpms

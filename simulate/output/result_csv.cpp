@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <cmath>
 #include <limits>
 
 #include "core/csv.h"
@@ -8,6 +11,10 @@ namespace bpms {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+std::string digits(double value, int significant) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, significant) : std::string();
+}
 
 class Rows {
  public:
@@ -31,8 +38,8 @@ class Rows {
     field(component);
     field(order < 0 ? "" : std::to_string(order));
     field(material < 0 ? "" : csv_field(simulation_->materials[static_cast<std::size_t>(material)].name));
-    field(csv_number(value));
-    field(csv_number(error));
+    field(digits(value, 7));
+    field(digits(error, 3));
     out += '\n';
   }
   std::string text;
