@@ -70,7 +70,7 @@ function checkFigure(r: Reconstruct, s: Section): void {
       layout: {
         barmode: "stack",
         bargap: 0.04,
-        xaxis: { title: axisTitle("|ΔZ| / σ"), range: [0, top], ...(top === 12 ? { tickvals: [0, 2, 4, 6, 8, 10, 12], ticktext: ["0", "2", "4", "6", "8", "10", "12 and above"] } : {}) },
+        xaxis: { title: axisTitle("|ΔZ| / σ"), range: [0, top], ...(top === 12 ? { tickvals: [0, 2, 4, 6, 8, 10, 12], ticktext: ["0", "2", "4", "6", "8", "10", "≥ 12"] } : {}) },
         yaxis: { title: axisTitle("points"), range: [0, 1.18 * Math.max(...good.counts.map((n, i) => n + (bad.counts[i] ?? 0)))] },
         shapes: line ? [line.shape] : [],
         annotations: line ? [line.annotation] : [],
