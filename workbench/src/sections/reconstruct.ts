@@ -78,7 +78,7 @@ function checkFigure(r: Reconstruct, s: Section): void {
         showlegend: true,
       },
     },
-    `Distance in depth between the points and ${r.check.name ?? "an independent measurement"}, in units of its σ` +
+    `Check by ${r.check.name ?? "an independent measurement"}: distances in depth in units of their σ` +
       `${top === 12 ? " (values above 12 in the last bar)" : ""}. If the σ are right, half of the points lie below 0.674.`,
   );
 }
@@ -97,11 +97,15 @@ function rejectedTable(r: Reconstruct, names: Organs, s: Section): void {
   );
 }
 
+function measured(f: Reconstruct["figures"][number]): string {
+  return f.unit === "m" ? length(f.value, f.sigma) : withSigma(f.value, f.sigma, f.unit === "deg" ? "°" : (f.unit ?? ""));
+}
+
 function figuresTable(r: Reconstruct, s: Section): void {
   s.table(
     [
       { head: "quantity", text: true, cell: (f) => sentenceCase(f.name ?? "") },
-      { head: "value ± σ", cell: (f) => withSigma(f.value, f.sigma, f.unit ?? "") },
+      { head: "value ± σ", cell: measured },
       { head: "remark", text: true, cell: (f) => f.note },
     ],
     r.figures,
@@ -124,7 +128,7 @@ export const reconstruct = defineSection({
         : `${plural(r.points ?? r.curves.reduce((n, c) => n + c.points.length, 0), "point")} reconstructed, ${count(r.rejected.length)} rejected` +
           `${r.reprojection_rms_px === null ? "" : `, reprojected to ${significant(r.reprojection_rms_px, 3)} px rms`}.`,
     cards: [
-      ...r.figures.slice(0, 1).map((f) => ({ label: sentenceCase(f.name ?? ""), value: withSigma(f.value, f.sigma, f.unit ?? "") })),
+      ...r.figures.slice(0, 1).map((f) => ({ label: sentenceCase(f.name ?? ""), value: measured(f) })),
       ...(r.reprojection_rms_px === null ? [] : [{ label: "Reprojection", value: `${significant(r.reprojection_rms_px, 3)} px`, note: "rms" }]),
     ],
   }),
