@@ -31,28 +31,26 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Scene het01(const std::string& data) {
+// Discs that stand nowhere yet, above a ground.
+Scene discs_over_ground(double size_m, const std::string& file) {
   Scene scene;
-  scene.domain.size_m = {100, 100};
+  scene.domain.size_m = {size_m, size_m};
   scene.materials = {"leaf", "soil"};
-  Prototype crown;
-  crown.discs = read_disc_list(data + "/rami/het01/het01_UNI_sphere.def");
-  scene.prototypes.push_back(std::move(crown));
-  for (const auto& row : read_number_table(data + "/rami/het01/het01_UNI_instances.def", 3, 3, "x y z").rows)
-    scene.instances.emplace_back().position_m = {row[0], row[1], row[2]};
+  scene.prototypes.emplace_back().discs = read_disc_list(file);
   scene.ground = Ground{0, 1};
   return scene;
 }
 
+Scene het01(const std::string& data) {
+  Scene scene = discs_over_ground(100, data + "/rami/het01/het01_UNI_sphere.def");
+  for (const auto& row : read_number_table(data + "/rami/het01/het01_UNI_instances.def", 3, 3, "x y z").rows)
+    scene.instances.emplace_back().position_m = {row[0], row[1], row[2]};
+  return scene;
+}
+
 Scene bench_hom(const std::string& data) {
-  Scene scene;
-  scene.domain.size_m = {25, 25};
-  scene.materials = {"leaf", "soil"};
-  Prototype layer;
-  layer.discs = read_disc_list(data + "/bench_hom/hom_discs.def.gz");
-  scene.prototypes.push_back(std::move(layer));
+  Scene scene = discs_over_ground(25, data + "/bench_hom/hom_discs.def.gz");
   scene.instances.emplace_back();
-  scene.ground = Ground{0, 1};
   return scene;
 }
 

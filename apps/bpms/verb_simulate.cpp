@@ -17,20 +17,21 @@ struct SimulateArguments {
   std::string csv;
   std::string target_se;
   std::uint64_t samples = 0;
+  bool image_origins = false;
 };
 
 // A picture beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
-std::string picture_path(const Cli& cli, const Simulation& simulation, const Sensor& sensor) {
+std::string picture_path(const Cli& cli, const Simulation& simulation, std::size_t sensor) {
   std::filesystem::path path = cli.common.output;
-  path.replace_filename(path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor.name : "") +
+  path.replace_filename(path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor_identifier(simulation, sensor) : "") +
                         ".png");
   return path.string();
 }
 
 void write_quick_looks(const Cli& cli, const Simulation& simulation, const Result& result) {
-  for (const SensorResult& sensor : result.sensors) {
-    if (!sensor.sensor->is_image()) continue;
-    write_file(picture_path(cli, simulation, *sensor.sensor), encode_png(quick_look(simulation, sensor)),
+  for (std::size_t i = 0; i < result.sensors.size(); ++i) {
+    if (!result.sensors[i].sensor->is_image()) continue;
+    write_file(picture_path(cli, simulation, i), encode_png(quick_look(simulation, result.sensors[i])),
                cli.common.overwrite);
   }
 }
@@ -39,8 +40,9 @@ void run(const Cli& cli, const SimulateArguments& options) {
   const std::string& output = require_output(cli);
   if (!options.csv.empty()) require_writable(options.csv, cli.common.overwrite);
   Simulation simulation = read_simulation(options.scene);
-  for (const auto& sensor : simulation.sensors)
-    if (sensor->is_image()) require_writable(picture_path(cli, simulation, *sensor), cli.common.overwrite);
+  for (std::size_t i = 0; i < simulation.sensors.size(); ++i)
+    if (simulation.sensors[i]->is_image())
+      require_writable(picture_path(cli, simulation, i), cli.common.overwrite);
   if (!options.target_se.empty()) set_target_se(simulation.sampling, options.target_se, {"--target-se"});
   if (options.samples > 0) {
     simulation.sampling.samples = options.samples;
@@ -52,7 +54,7 @@ void run(const Cli& cli, const SimulateArguments& options) {
   for (const std::string& input : simulation.inputs) from.add_input(input);
 
   const Result result = simulate(simulation, cli.common.seed);
-  write_netcdf(simulation, result, from, output, cli.common.overwrite);
+  write_netcdf(simulation, result, from, output, {cli.common.overwrite, options.image_origins});
   if (!options.csv.empty()) write_file(options.csv, result_csv(simulation, result), cli.common.overwrite);
   write_quick_looks(cli, simulation, result);
   deliver_report(cli, "simulate", result_report(simulation, result), from);
@@ -78,6 +80,8 @@ void add_simulate(Cli& cli) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000'000}));
   verb->add_option("--target-se", options->target_se, "standard error of each view's total: 0.0002 or 0.1%")
       ->excludes("--samples");
+  verb->add_flag("--image-origins", options->image_origins,
+                 "keep the pixels of images by origin of the light too: total, direct, diffuse");
 }
 
 }  // namespace bpms

@@ -11,6 +11,12 @@
 
 namespace bpms {
 
+struct PlantingSite {
+  Eigen::Vector2d xy_m;
+  double z_m = 0;
+  std::optional<double> rotation;  // given by the file for this plant
+};
+
 struct PlantingField {
   Eigen::Vector2d size_m;
   bool periodic;
@@ -23,12 +29,8 @@ struct PlantingField {
   Eigen::Vector2d wrapped(const Eigen::Vector2d& xy) const;
   bool holds(const Eigen::Vector2d& xy) const;
   Eigen::Vector2d anywhere();
-};
-
-struct PlantingSite {
-  Eigen::Vector2d xy_m;
-  double z_m = 0;
-  std::optional<double> rotation;  // given by the file for this plant
+  // A plant at xy: wrapped where the field is periodic, left out where it falls beside an open one.
+  void plant(const Eigen::Vector2d& xy, std::vector<PlantingSite>& out) const;
 };
 
 using Pattern = std::vector<PlantingSite> (*)(const TomlValue& planting, PlantingField& field);

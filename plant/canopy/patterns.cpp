@@ -42,6 +42,13 @@ bool PlantingField::holds(const Eigen::Vector2d& xy) const {
   return (xy.cwiseAbs().array() <= size_m.array() / 2).all();
 }
 
+void PlantingField::plant(const Eigen::Vector2d& xy, std::vector<PlantingSite>& out) const {
+  if (periodic)
+    out.push_back({wrapped(xy), 0, {}});
+  else if (holds(xy))
+    out.push_back({xy, 0, {}});
+}
+
 Eigen::Vector2d PlantingField::anywhere() {
   const double x = random.uniform(-0.5, 0.5);
   return {x * size_m.x(), random.uniform(-0.5, 0.5) * size_m.y()};

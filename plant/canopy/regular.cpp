@@ -35,10 +35,7 @@ std::vector<PlantingSite> plant_regular(const TomlValue& planting, PlantingField
                          (static_cast<double>(j) + 0.5 * static_cast<double>(1 - count[1])) * spacing.y());
       const double aside = field.random.normal();
       xy += scatter * Eigen::Vector2d(aside, field.random.normal());
-      if (field.periodic)
-        out.push_back({field.wrapped(xy), 0, {}});
-      else if (field.holds(xy))
-        out.push_back({xy, 0, {}});
+      field.plant(xy, out);
     }
   }
   return out;

@@ -120,10 +120,7 @@ std::vector<PlantingSite> plant_rows(const TomlValue& planting, PlantingField& f
       const double at = (static_cast<double>(i) + phase) * row.length_m / static_cast<double>(count) +
                         plant_scatter * field.random.normal();
       const Eigen::Vector2d xy = row.start + at * set.along + aside * set.across;
-      if (field.periodic)
-        out.push_back({field.wrapped(xy), 0, {}});
-      else if (field.holds(xy))
-        out.push_back({xy, 0, {}});
+      field.plant(xy, out);
     }
   }
   return out;

@@ -43,18 +43,21 @@ int NetcdfWriter::define(const std::string& name, int type, const std::vector<st
   constexpr int quick = 1;
   if (!ids.empty() && type != NC_STRING)
     check(nc_def_var_deflate(id_, id, 1, 1, quick), "compressing " + name);
-  if (type == NC_DOUBLE) {
-    const double fill = std::numeric_limits<double>::quiet_NaN();
-    check(nc_put_att_double(id_, id, "_FillValue", NC_DOUBLE, 1, &fill), "writing the fill value of " + name);
-  }
+  const double fill = std::numeric_limits<double>::quiet_NaN();
+  if (type == NC_DOUBLE || type == NC_FLOAT)
+    check(nc_put_att_double(id_, id, "_FillValue", type, 1, &fill), "writing the fill value of " + name);
   for (const auto& [key, value] : attributes)
     check(nc_put_att_text(id_, id, key.c_str(), value.size(), value.data()), "writing attributes of " + name);
   return id;
 }
 
 void NetcdfWriter::variable(const std::string& name, const std::vector<std::string>& dimensions,
-                            std::span<const double> values, const NetcdfAttributes& attributes) {
-  const int id = define(name, NC_DOUBLE, dimensions, attributes);
+                            std::span<const double> values, const NetcdfAttributes& attributes,
+                            Precision precision) {
+  const int id = define(name, precision == Precision::full ? NC_DOUBLE : NC_FLOAT, dimensions, attributes);
+  constexpr int digits = 3;
+  if (precision == Precision::three_digits)
+    check(nc_def_var_quantize(id_, id, NC_QUANTIZE_GRANULARBR, digits), "shortening " + name);
   check(nc_put_var_double(id_, id, values.data()), "writing " + name);
 }
 

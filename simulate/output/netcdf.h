@@ -12,6 +12,10 @@ namespace bpms {
 
 using NetcdfAttributes = std::vector<std::pair<std::string, std::string>>;
 
+// What is kept of a number: all of it, single precision, or three significant digits, which is more than a
+// standard error has and is small when compressed.
+enum class Precision { full, single, three_digits };
+
 class NetcdfWriter {
  public:
   NetcdfWriter(const std::string& path, bool overwrite);
@@ -23,7 +27,8 @@ class NetcdfWriter {
   void dimension(const std::string& name, std::size_t size);
   // Values in the order of the dimensions, the last one fastest; NaN is the fill value.
   void variable(const std::string& name, const std::vector<std::string>& dimensions,
-                std::span<const double> values, const NetcdfAttributes& attributes);
+                std::span<const double> values, const NetcdfAttributes& attributes,
+                Precision precision = Precision::full);
   void integers(const std::string& name, const std::vector<std::string>& dimensions,
                 std::span<const long long> values, const NetcdfAttributes& attributes);
   void words(const std::string& name, const std::string& dimension, const std::vector<std::string>& values,

@@ -9,11 +9,20 @@
 
 namespace bpms {
 
+struct NetcdfOptions {
+  bool overwrite = false;
+  bool image_origins = false;  // pixels by origin of the light too, three times as large
+};
 // One file; with several sensors, one group of names each: SENSOR_brf and so on. One sensor: plain names.
+// Pixels are kept in single precision, their standard errors to three digits.
 void write_netcdf(const Simulation& simulation, const Result& result, const Provenance& provenance,
-                  const std::string& path, bool overwrite);
+                  const std::string& path, const NetcdfOptions& options);
 
-// All parts of reflectance and radiance; of the bands beyond `split_bands` totals only.
+// The name of a sensor in the names of variables and files: letters, digits and _, unlike those before it.
+std::string sensor_identifier(const Simulation& simulation, std::size_t sensor);
+
+// All parts of reflectance and radiance; of the bands beyond `split_bands` totals only. Values to seven
+// digits, which is what single-precision light has, standard errors to three.
 inline constexpr std::size_t split_bands = 8;
 std::string result_csv(const Simulation& simulation, const Result& result);
 

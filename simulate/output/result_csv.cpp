@@ -1,9 +1,17 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "core/csv.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
 
 namespace bpms {
 namespace {
+
+std::string digits(double value, int significant) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, significant) : std::string();
+}
 
 class Rows {
  public:
@@ -27,8 +35,8 @@ class Rows {
     field(component);
     field(order < 0 ? "" : std::to_string(order));
     field(material < 0 ? "" : csv_field(simulation_->materials[static_cast<std::size_t>(material)].name));
-    field(csv_number(value));
-    field(csv_number(error));
+    field(digits(value, 7));
+    field(digits(error, 3));
     out += '\n';
   }
   std::string text;

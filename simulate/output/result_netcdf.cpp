@@ -1,3 +1,4 @@
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -12,12 +13,13 @@ namespace {
 class SensorVariables {
  public:
   SensorVariables(const Simulation& simulation, const SensorResult& result, NetcdfWriter& file,
-                  std::string prefix)
+                  std::string prefix, const NetcdfOptions& options)
       : simulation_(simulation),
         result_(result),
         file_(file),
         prefix_(std::move(prefix)),
-        bands_(simulation.bands.count()) {
+        bands_(simulation.bands.count()),
+        by_origin_(!result.sensor->is_image() || options.image_origins) {
     const Sensor& sensor = *result.sensor;
     if (sensor.is_image()) {
       views_ = {prefix_ + "y", prefix_ + "x"};
@@ -108,8 +110,15 @@ class SensorVariables {
       attributes.emplace_back("coordinates", list);
       of_error.emplace_back("coordinates", list);
     }
-    file_.variable(prefix_ + name, dimensions, value, attributes);
-    file_.variable(prefix_ + name + "_se", dimensions, error, of_error);
+    put_pair(name, dimensions, {value, error}, attributes, of_error);
+  }
+  void put_pair(const std::string& name, const Words& dimensions, const Estimates& of,
+                const NetcdfAttributes& attributes, const NetcdfAttributes& of_error) {
+    const bool image = result_.sensor->is_image();
+    file_.variable(prefix_ + name, dimensions, of.value, attributes,
+                   image ? Precision::single : Precision::full);
+    file_.variable(prefix_ + name + "_se", dimensions, of.standard_error, of_error,
+                   image ? Precision::three_digits : Precision::full);
   }
 
   std::string quantity(bool reflectance) const {
@@ -140,7 +149,7 @@ class SensorVariables {
     std::vector<std::size_t> by_origin = parts_with(result_, Origin::total, Component::all, false);
     for (const Origin origin : {Origin::direct, Origin::diffuse})
       for (const std::size_t p : parts_with(result_, origin, Component::all, false)) by_origin.push_back(p);
-    if (by_origin.size() > 1)
+    if (by_origin.size() > 1 && by_origin_)
       write_parts(reflectance, "_by_origin", "origin", by_origin, " by origin of the light");
   }
   static Words components() { return {"uc_sgl", "co_sgl", "mlt"}; }
@@ -183,10 +192,9 @@ class SensorVariables {
       const std::size_t each = value.size() / std::max<std::size_t>(1, result_.samples.size());
       for (std::size_t i = 0; i < value.size(); ++i)
         if (result_.samples[i / each] == 0) value[i] = error[i] = no_value;
-      file_.variable(prefix_ + name, dimensions, value,
-                     {{"units", "1"}, {"long_name", what}, {"ancillary_variables", prefix_ + name + "_se"}});
-      file_.variable(prefix_ + name + "_se", dimensions, error,
-                     {{"units", "1"}, {"long_name", "standard error of " + what}});
+      put_pair(name, dimensions, {value, error},
+               {{"units", "1"}, {"long_name", what}, {"ancillary_variables", prefix_ + name + "_se"}},
+               {{"units", "1"}, {"long_name", "standard error of " + what}});
     };
     put_fraction("gap", views_, result_.gap, "fraction of view that meets no canopy");
     if (!simulation_.light.sun || simulation_.materials.empty()) return;
@@ -201,6 +209,7 @@ class SensorVariables {
   NetcdfWriter& file_;
   std::string prefix_;
   std::size_t bands_;
+  bool by_origin_;
   Words views_;
   bool orders_defined_ = false;
 };
@@ -232,9 +241,22 @@ void write_globals(NetcdfWriter& file, const Simulation& simulation, const Resul
 
 }  // namespace
 
+std::string sensor_identifier(const Simulation& simulation, std::size_t sensor) {
+  const auto plain = [&](std::size_t of) {
+    std::string name = simulation.sensors[of]->name;
+    for (char& c : name)
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    return name;
+  };
+  std::string out = plain(sensor);
+  for (std::size_t before = 0; before < sensor; ++before)
+    if (plain(before) == plain(sensor)) return out + "_" + std::to_string(sensor + 1);
+  return out;
+}
+
 void write_netcdf(const Simulation& simulation, const Result& result, const Provenance& provenance,
-                  const std::string& path, bool overwrite) {
-  NetcdfWriter file(path, overwrite);
+                  const std::string& path, const NetcdfOptions& options) {
+  NetcdfWriter file(path, options.overwrite);
   write_globals(file, simulation, result, provenance);
   const auto& nm = simulation.bands.wavelengths_nm;
   file.dimension("band", simulation.bands.count());
@@ -256,9 +278,10 @@ void write_netcdf(const Simulation& simulation, const Result& result, const Prov
     file.dimension("material", names.size());
     file.words("material", "material", names, {{"long_name", "material"}});
   }
-  for (const SensorResult& sensor : result.sensors)
-    SensorVariables(simulation, sensor, file, simulation.sensors.size() == 1 ? "" : sensor.sensor->name + "_")
-        .write();
+  for (std::size_t i = 0; i < result.sensors.size(); ++i) {
+    const std::string prefix = simulation.sensors.size() == 1 ? "" : sensor_identifier(simulation, i) + "_";
+    SensorVariables(simulation, result.sensors[i], file, prefix, options).write();
+  }
   file.commit();
 }
 

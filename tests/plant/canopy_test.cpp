@@ -253,34 +253,34 @@ TEST_F(CanopyTest, TheSeedDecides) {
 }
 
 TEST_F(CanopyTest, ErrorsNameTheKey) {
-  BPMS_EXPECT_ERROR(read("pattern = \"row\"\n"), bad_input,
-                    "canopy.toml:7:11: planting.pattern: unknown 'row'; did you mean 'rows'?");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9\ndepht_m = 1"), bad_input,
-                    "canopy.toml:9:1: unknown key 'depht_m'; did you mean 'depth_m'?");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9\nrow_spacing_m = 1"), bad_input,
-                    "unknown key 'row_spacing_m'");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 0.01"), bad_input, "expected at least one");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 1e12"), bad_input, "more than 10000000");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = -1"), bad_input,
-                    "expected a number above 0");
-  BPMS_EXPECT_ERROR(read("pattern = \"rows\"\nrow_spacing_m = 1e-9\ndensity_per_m2 = 10"), bad_input,
-                    "planting.row_spacing_m");
-  BPMS_EXPECT_ERROR(read("pattern = \"rows\"\nrow_spacing_m = 0.1"), bad_input,
-                    "expected one of density_per_m2 and spacing_in_row_m");
-  BPMS_EXPECT_ERROR(read("pattern = \"rows\"\nrow_spacing_m = { mean = 0.1, sd = -1 }\ndensity_per_m2 = 1"),
-                    bad_input, "expected a standard deviation");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9", "size_m = [0, 1]"), bad_input,
-                    "expected two lengths above 0");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9\n[terrain]\ndem = \"x.tif\""), bad_input,
-                    "canopy.toml:9:1: terrain: terrain is not built yet");
-  BPMS_EXPECT_ERROR(
-      read("pattern = \"random\"\ndensity_per_m2 = 9", "size_m = [1, 1]", "scale = { mean = 1, sd = 0.4 }"),
-      bad_input, "reach zero within 3 sd");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9", "size_m = [1, 1]", "folder = \"x\""),
-                    bad_input, "expected one of file and folder");
-  BPMS_EXPECT_ERROR(read("pattern = \"random\"\ndensity_per_m2 = 9", "size_m = [1, 1]",
-                         "rotation = { type = \"unifrom\" }"),
-                    bad_input, "did you mean 'uniform'?");
+  struct Case {
+    std::string planting;
+    const char* message;
+    const char* domain = "size_m = [1, 1]";
+    const char* plant = "";
+  };
+  const std::string random = "pattern = \"random\"\ndensity_per_m2 = ",
+                    rows = "pattern = \"rows\"\nrow_spacing_m = ";
+  const Case cases[] = {
+      {"pattern = \"row\"", "canopy.toml:7:11: planting.pattern: unknown 'row'; did you mean 'rows'?"},
+      {random + "9\ndepht_m = 1", "canopy.toml:9:1: unknown key 'depht_m'; did you mean 'depth_m'?"},
+      {random + "9\nrow_spacing_m = 1", "unknown key 'row_spacing_m'"},
+      {random + "0.01", "expected at least one"},
+      {random + "1e12", "more than 10000000"},
+      {random + "-1", "expected a number above 0"},
+      {rows + "1e-9\ndensity_per_m2 = 10", "planting.row_spacing_m"},
+      {rows + "0.1", "expected one of density_per_m2 and spacing_in_row_m"},
+      {rows + "{ mean = 0.1, sd = -1 }\ndensity_per_m2 = 1", "expected a standard deviation"},
+      {random + "9", "expected two lengths above 0", "size_m = [0, 1]"},
+      {random + "9\n[terrain]\ndem = \"x.tif\"", "canopy.toml:9:1: terrain: terrain is not built yet"},
+      {random + "9", "reach zero within 3 sd", "size_m = [1, 1]", "scale = { mean = 1, sd = 0.4 }"},
+      {random + "9", "expected one of file and folder", "size_m = [1, 1]", "folder = \"x\""},
+      {random + "9", "did you mean 'uniform'?", "size_m = [1, 1]", "rotation = { type = \"unifrom\" }"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.message);
+    BPMS_EXPECT_ERROR(read(c.planting, c.domain, c.plant), bad_input, c.message);
+  }
 }
 
 }  // namespace

@@ -76,12 +76,8 @@ TEST(Intersector, TurnsInstancesCounterClockwiseSeenFromAbove) {
 // Two ways to hold the same scene: written out, and as instances.
 TEST(Intersector, FindsTheSameInFlatAndInstancedScenes) {
   Scene scene = empty_scene(20, true);
-  std::vector<Disc> discs;
   Philox random(3);
-  for (int k = 0; k < 300; ++k)
-    discs.push_back(
-        {Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0, 2)).cast<float>(),
-         0.08f, test::random_direction(random)});
+  const std::vector<Disc> discs = test::scattered_discs(random, 300, 1, 2, 0.08f);
   scene.prototypes = {test::disc_prototype(discs), test::mesh_prototype(test::bent_strip(20, 3, 0.3f, 1))};
   for (int k = 0; k < 60; ++k)
     scene.instances.push_back({static_cast<std::uint32_t>(k % 2),
@@ -125,11 +121,7 @@ TEST(Intersector, PutsHitsOnThePrimitiveTenKilometresOut) {
   constexpr double far_m = 1e4;
   Scene scene = empty_scene(4 * far_m, false);
   Philox random(5);
-  std::vector<Disc> discs;
-  for (int k = 0; k < 200; ++k)
-    discs.push_back(
-        {Eigen::Vector3d(random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(0, 10)).cast<float>(),
-         0.5f, test::random_direction(random)});
+  std::vector<Disc> discs = test::scattered_discs(random, 200, 5, 10, 0.5f);
   scene.prototypes = {test::disc_prototype(discs)};
   scene.instances.push_back({0, {far_m, -far_m, 0}, 0, 1});
   for (const IntersectorOptions& options : {flat, instanced}) {
@@ -193,11 +185,7 @@ TEST(Intersector, NeverMeetsTheDiscItLeaves) {
   Philox random(11);
   for (const double offset : {0.0, 1e2, 1e4}) {
     Scene scene = empty_scene(0, false);
-    std::vector<Disc> discs;
-    for (int k = 0; k < 50; ++k)
-      discs.push_back(
-          {Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0, 1)).cast<float>(),
-           0.3f, test::random_direction(random)});
+    std::vector<Disc> discs = test::scattered_discs(random, 50, 1, 1, 0.3f);
     scene.prototypes = {test::disc_prototype(discs)};
     scene.instances.push_back({0, {offset, -offset, 0}, 1, 1});
     expect_no_self_hits(scene, flat, 1);

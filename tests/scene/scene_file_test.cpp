@@ -8,6 +8,7 @@
 #include "scene/intersect/intersector.h"
 #include "scene/scene.h"
 #include "tests/data.h"
+#include "tests/scene_text.h"
 
 namespace bpms {
 namespace {
@@ -195,21 +196,12 @@ TEST(Azimuth, FollowsTheConvention) {
 TEST(Het01, IsReadAndTraced) {
   BPMS_NEED_DATA("rami/het01/het01_UNI_sphere.def");
   const std::string folder = test::data_folder() + "/rami/het01/";
-  const std::string text = R"([domain]
-size_m = [100.0, 100.0]
-[materials.leaf]
-[materials.soil]
-[ground]
-type = "plane"
-material = "soil"
-[prototypes.crown]
-discs = ")" + folder + R"(het01_UNI_sphere.def"
-material = "leaf"
-[[instances]]
-prototype = "crown"
-positions = ")" + folder + R"(het01_UNI_instances.def"
-)";
-  const Scene scene = read_scene_geometry(TomlDocument::parse("het01.toml", text));
+  const test::SceneText text{.domain = "size_m = [100, 100]",
+                             .leaf = test::bilambertian("0.4957", "0.4409"),
+                             .soil = test::lambertian("0.159"),
+                             .discs = folder + "het01_UNI_sphere.def",
+                             .positions = "\"" + folder + "het01_UNI_instances.def\""};
+  const Scene scene = read_scene_geometry(TomlDocument::parse("het01.toml", text.str()));
   EXPECT_EQ(scene.prototypes[0].discs.size(), 49999u);
   EXPECT_EQ(scene.instances.size(), 15u);
   const Intersector intersector(scene);

@@ -55,4 +55,17 @@ inline Eigen::Vector3f random_direction(Philox& random) {
   return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized().cast<float>();
 }
 
+// Discs with centres uniform in a box that stands on the origin.
+inline std::vector<Disc> scattered_discs(Philox& random, int count, double half_width_m, double height_m,
+                                         float radius_m) {
+  std::vector<Disc> out;
+  for (int k = 0; k < count; ++k) {
+    const double x = random.uniform(-half_width_m, half_width_m);
+    const double y = random.uniform(-half_width_m, half_width_m);
+    const Eigen::Vector3d centre(x, y, random.uniform(0, height_m));
+    out.push_back({centre.cast<float>(), radius_m, random_direction(random)});
+  }
+  return out;
+}
+
 }  // namespace bpms::test

@@ -4,52 +4,26 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "tests/simulate/random_canopy.h"
 #include "tests/simulate/scene_text.h"
+#include "tests/simulate/spread.h"
 
 namespace bpms::test {
 namespace {
 
-std::string canopy_scene(const TemporaryFolder& folder, const RandomCanopy& canopy, double reflectance,
-                         double transmittance, double soil) {
-  folder.write("canopy.def", disc_list(canopy));
-  return fmt::format(R"(
-[domain]
-size_m = [{0}, {0}]
-[materials.leaf]
-type = "bilambertian"
-reflectance = {1}
-transmittance = {2}
-[materials.soil]
-type = "lambertian"
-reflectance = {3}
-[ground]
-type = "plane"
-material = "soil"
-[prototypes.canopy]
-discs = "canopy.def"
-material = "leaf"
-[[instances]]
-prototype = "canopy"
-positions = [[0.0, 0.0, 0.0]]
-)",
-                     canopy.side_m, reflectance, transmittance, soil);
+// LAI 2 of discs that stand free of the ground.
+SceneText dense_canopy(const TemporaryFolder& folder) {
+  return canopy_text(folder, {.lai = 2, .size_m = {4, 4}, .bottom_m = 0.05});
 }
 
 TEST(Canopy, WhiteFurnaceIsWhiteOnEveryPath) {
   const TemporaryFolder folder;
-  const Simulation scene = simulation_of(folder, canopy_scene(folder, {4, 2, 0.05, 2, 1}, 0.7, 0.3, 1.0) + R"(
-[illumination]
-sky = { type = "isotropic", radiance = 1.0 }
-[[sensors]]
-name = "views"
-type = "brf"
-views = [[0.0, 0.0], [45.0, 30.0], [75.0, 200.0]]
-[sampling]
-samples = 2048
-roulette = false
-)");
-  const SensorResult result = simulate(scene, 1).sensors.at(0);
+  SceneText scene = dense_canopy(folder);
+  scene.leaf = bilambertian("0.7", "0.3");
+  scene.soil = lambertian("1.0");
+  scene.sky = white_sky;
+  scene.sensor = views("[[0, 0], [45, 30], [75, 200]]");
+  scene.sampling = "samples = 2048\nroulette = false";
+  const SensorResult result = sensor_result(folder, scene);
   for (std::size_t view = 0; view < 3; ++view) {
     EXPECT_NEAR(result.radiance[0].value[view], 1.0, 1e-6);
     EXPECT_LT(result.radiance[0].standard_error[view], 1e-6);
@@ -58,27 +32,19 @@ roulette = false
 
 TEST(Canopy, RouletteLeavesTheMeanAlone) {
   const TemporaryFolder folder;
-  const std::string text = canopy_scene(folder, {4, 2, 0.05, 2, 1}, 0.5, 0.44, 0.2) + R"(
-[illumination]
-sun = { zenith_deg = 30.0, azimuth_deg = 10.0, irradiance = "brf" }
-sky = { type = "isotropic", irradiance = "brf" }
-[[sensors]]
-name = "views"
-type = "brf"
-views = [[0.0, 0.0], [45.0, 30.0]]
-[sampling]
-samples = 32768
-)";
-  const SensorResult with = simulate(simulation_of(folder, text), 1).sensors.at(0);
-  const SensorResult without = simulate(simulation_of(folder, text + "roulette = false\n"), 2).sensors.at(0);
-  for (const Origin origin : {Origin::direct, Origin::diffuse}) {
-    for (std::size_t view = 0; view < 2; ++view) {
-      const Estimates &a = part_of(with, origin), &b = part_of(without, origin);
-      const double z =
-          (a.value[view] - b.value[view]) / std::hypot(a.standard_error[view], b.standard_error[view]);
-      EXPECT_LT(std::abs(z), 4) << name_of(origin) << " " << a.value[view] << " " << b.value[view];
-    }
-  }
+  SceneText scene = dense_canopy(folder);
+  scene.leaf = bilambertian("0.5", "0.44");
+  scene.sun = sun_at(30, 10);
+  scene.sky = white_sky;
+  scene.sensor = views("[[0, 0], [45, 30]]");
+  scene.sampling = "samples = 32768\n";
+  const SensorResult with = sensor_result(folder, scene, 1);
+  scene.sampling += "roulette = false";
+  const SensorResult without = sensor_result(folder, scene, 2);
+  for (const Origin origin : {Origin::direct, Origin::diffuse})
+    for (std::size_t view = 0; view < 2; ++view)
+      EXPECT_LT(std::abs(z_of(part_of(with, origin), view, part_of(without, origin), view)), 4)
+          << name_of(origin) << " view " << view;
 }
 
 // Poisson canopy of small discs: P(v) = exp(-G LAI / mu), and far from the hot spot the sunlit ground seen is
@@ -86,37 +52,28 @@ samples = 32768
 TEST(Canopy, GapAndSunlitGroundFollowTheExponentialLaw) {
   constexpr int draws = 8;
   constexpr double lai = 1.0, sza = 30.0, vza = 50.0, g = 0.5;
-  double gap[draws], lit[draws];
+  std::vector<double> gap, lit;
   for (int draw = 0; draw < draws; ++draw) {
     const TemporaryFolder folder;
-    const RandomCanopy canopy{3, 2, 0.02, lai, static_cast<std::uint64_t>(draw + 1)};
-    const Simulation scene =
-        simulation_of(folder, canopy_scene(folder, canopy, 0.1, 0.1, 0.2) + fmt::format(R"(
-[illumination]
-sun = {{ zenith_deg = {}, azimuth_deg = 100.0, irradiance = "brf" }}
-[[sensors]]
-name = "pp"
-type = "brf"
-plane = "principal"
-vza_deg = [{}]
-[sampling]
-samples = 32768
-max_order = 1
-)",
-                                                                                        sza, vza));
+    SceneText text = canopy_text(folder, {.lai = lai,
+                                          .radius_m = 0.02,
+                                          .size_m = {3, 3},
+                                          .bottom_m = 0.05,
+                                          .seed = static_cast<std::uint64_t>(draw + 1)});
+    text.sun = sun_at(sza, 100);
+    text.sensor = principal_plane(fmt::format("[{}]", vza));
+    text.sampling = "samples = 32768\nmax_order = 1";
+    const Simulation scene = simulation_of(folder, text);
     const SensorResult result = simulate(scene, 1).sensors.at(0);
-    gap[draw] = result.gap.value[0];
+    gap.push_back(result.gap.value[0]);
     const std::size_t soil = scene.materials[0].name == "soil" ? 0 : 1;
-    lit[draw] = result.sunlit.value[soil];
+    lit.push_back(result.sunlit.value[soil]);
   }
-  const auto expect = [&](const double* values, double expected, const char* what) {
-    double mean = 0, squares = 0;
-    for (int i = 0; i < draws; ++i) mean += values[i] / draws;
-    for (int i = 0; i < draws; ++i) squares += (values[i] - mean) * (values[i] - mean);
-    const double error = std::sqrt(squares / (draws * (draws - 1)));
-    EXPECT_LT(error, 0.02 * expected) << what;
-    EXPECT_LT(std::abs(mean - expected), 4.5 * error)
-        << what << " " << mean << " +- " << error << ", expected " << expected;
+  const auto expect = [](const std::vector<double>& values, double expected, const char* what) {
+    const Mean found = mean_of(values);
+    EXPECT_LT(found.error, 0.02 * expected) << what;
+    EXPECT_LT(std::abs(found.value - expected), 4.5 * found.error)
+        << what << " " << found.value << " +- " << found.error << ", expected " << expected;
   };
   expect(gap, std::exp(-g * lai / std::cos(radians(vza))), "gap");
   expect(lit, std::exp(-g * lai * (1 / std::cos(radians(sza)) + 1 / std::cos(radians(vza)))),
@@ -126,19 +83,11 @@ max_order = 1
 // In the principal plane the hot spot lies on the sun's side: at vza = -sza all that is seen is lit.
 TEST(Canopy, HotSpotLiesAtMinusTheSunZenith) {
   const TemporaryFolder folder;
-  const Simulation scene = simulation_of(folder, canopy_scene(folder, {4, 2, 0.05, 2, 1}, 0.5, 0.4, 0.2) + R"(
-[illumination]
-sun = { zenith_deg = 35.0, azimuth_deg = 240.0, irradiance = "brf" }
-[[sensors]]
-name = "pp"
-type = "brf"
-plane = "principal"
-vza_deg = [-35.0, 35.0]
-[sampling]
-samples = 4096
-max_order = 1
-)");
-  const SensorResult result = simulate(scene, 1).sensors.at(0);
+  SceneText scene = dense_canopy(folder);
+  scene.sun = sun_at(35, 240);
+  scene.sensor = principal_plane("[-35, 35]");
+  scene.sampling = "samples = 4096\nmax_order = 1";
+  const SensorResult result = sensor_result(folder, scene);
   EXPECT_NEAR(result.shaded.value[0] + result.shaded.value[1], 0.0, 1e-3);
   EXPECT_GT(result.shaded.value[2] + result.shaded.value[3], 0.1);
   for (std::size_t view = 0; view < 2; ++view) {

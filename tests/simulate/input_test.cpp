@@ -6,27 +6,20 @@
 namespace bpms::test {
 namespace {
 
-struct Text {
-  std::string leaf = "type = \"bilambertian\"\nreflectance = 0.4\ntransmittance = 0.3\n";
-  std::string sun = "sun = { zenith_deg = 30.0, azimuth_deg = 0.0, irradiance = \"brf\" }";
-  std::string bands = "[bands]\nwavelengths_nm = [650, 850]\n";
-  std::string sampling = "samples = 64\n";
-  std::string str() const {
-    return "[domain]\nsize_m = [1, 1]\n[materials.leaf]\n" + leaf +
-           "[ground]\ntype = \"plane\"\nmaterial = \"leaf\"\n[illumination]\n" + sun +
-           "\n[[sensors]]\nname = \"n\"\ntype = \"brf\"\nviews = [[0, 0]]\n" + bands + "[sampling]\n" +
-           sampling;
-  }
-};
+const SceneText good{.domain = "size_m = [1, 1]",
+                     .leaf = bilambertian("0.4", "0.3"),
+                     .ground = "leaf",
+                     .sun = sun_at(30, 0),
+                     .sensor = views("[[0, 0]]"),
+                     .wavelengths_nm = "[650, 850]",
+                     .sampling = "samples = 64"};
 
 TEST(Input, SpectraAreInterpolatedToTheBands) {
   const TemporaryFolder folder;
   folder.write("tau.csv", "nm,tau\n400,0.0\n900,0.5\n");
-  Text text;
-  text.leaf =
-      "type = \"bilambertian\"\nreflectance = [[600, 0.1], [700, 0.2], [900, 0.4]]\ntransmittance = "
-      "\"tau.csv\"\n";
-  const Simulation scene = simulation_of(folder, text.str());
+  SceneText text = good;
+  text.leaf = bilambertian("[[600, 0.1], [700, 0.2], [900, 0.4]]", "\"tau.csv\"");
+  const Simulation scene = simulation_of(folder, text);
   EXPECT_NEAR(scene.materials[0].reflectance[0][0], 0.15, 1e-12);
   EXPECT_NEAR(scene.materials[0].reflectance[1][1], 0.35, 1e-12);
   EXPECT_NEAR(scene.materials[0].transmittance[0], 0.25, 1e-12);
@@ -34,42 +27,35 @@ TEST(Input, SpectraAreInterpolatedToTheBands) {
 }
 
 TEST(Input, WhatIsImpossibleIsRefusedWhereItStands) {
-  const auto expect = [](const Text& text, const std::string& part) {
-    const TemporaryFolder folder;
-    folder.write("short.csv", "nm,rho\n600,0.1\n700,0.2\n");
-    BPMS_EXPECT_ERROR(simulation_of(folder, text.str()), ErrorKind::bad_input, part);
+  struct Case {
+    std::string SceneText::*piece;
+    std::string text;
+    const char* message;
   };
-  Text text;
-  for (const char* zenith : {"90.0", "95", "-1.0"}) {
-    text.sun = std::string("sun = { zenith_deg = ") + zenith + ", azimuth_deg = 0.0, irradiance = \"brf\" }";
-    expect(text, "sun.zenith_deg");
+  const Case cases[] = {
+      {&SceneText::sun, sun_at(90, 0), "sun.zenith_deg"},
+      {&SceneText::sun, sun_at(95, 0), "sun.zenith_deg"},
+      {&SceneText::sun, sun_at(-1, 0), "sun.zenith_deg"},
+      {&SceneText::leaf, bilambertian("0.7", "[[600, 0.2], [900, 0.4]]"), "band 2 (850 nm)"},
+      {&SceneText::leaf, bilambertian("-0.1", "0.1"), "scene.toml:5:15"},
+      {&SceneText::leaf, lambertian("\"short.csv\""), "does not hold band 2 (850 nm)"},
+      {&SceneText::leaf, "type = \"lambertain\"\nreflectance = 0.1", "lambertian"},
+      {&SceneText::leaf, "type = \"lambertian\"\nreflectence = 0.1", "reflectance"},
+      {&SceneText::wavelengths_nm, "[650, 2501]", "2500"},
+      {&SceneText::wavelengths_nm, "[650]\nresponse = \"S2A.csv\"", "not built yet"},
+      {&SceneText::sampling, "samples = 64\ntarget_se = 0.1", "one of target_se and samples"},
+      {&SceneText::sampling, "target_se = \"-1%\"", "above 0"},
+      {&SceneText::sampling, "samples = 64\nmax_ordr = 3", "max_order"},
+      {&SceneText::sky, "{ type = \"isotropic\" }", "radiance and irradiance"},
+  };
+  const TemporaryFolder folder;
+  folder.write("short.csv", "nm,rho\n600,0.1\n700,0.2\n");
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    SceneText text = good;
+    text.*c.piece = c.text;
+    BPMS_EXPECT_ERROR(simulation_of(folder, text), ErrorKind::bad_input, c.message);
   }
-  text = {};
-  text.leaf = "type = \"bilambertian\"\nreflectance = 0.7\ntransmittance = [[600, 0.2], [900, 0.4]]\n";
-  expect(text, "band 2 (850 nm)");
-  text.leaf = "type = \"bilambertian\"\nreflectance = -0.1\ntransmittance = 0.1\n";
-  expect(text, "scene.toml:5:15");
-  text.leaf = "type = \"lambertian\"\nreflectance = \"short.csv\"\n";
-  expect(text, "does not hold band 2 (850 nm)");
-  text.leaf = "type = \"lambertain\"\nreflectance = 0.1\n";
-  expect(text, "lambertian");
-  text.leaf = "type = \"lambertian\"\nreflectence = 0.1\n";
-  expect(text, "reflectance");
-  text = {};
-  text.bands = "[bands]\nwavelengths_nm = [650, 2501]\n";
-  expect(text, "2500");
-  text.bands = "[bands]\nresponse = \"S2A.csv\"\n";
-  expect(text, "not built yet");
-  text = {};
-  text.sampling = "samples = 64\ntarget_se = 0.1\n";
-  expect(text, "one of target_se and samples");
-  text.sampling = "target_se = \"-1%\"\n";
-  expect(text, "above 0");
-  text.sampling = "samples = 64\nmax_ordr = 3\n";
-  expect(text, "max_order");
-  text = {};
-  text.sun = "sky = { type = \"isotropic\" }";
-  expect(text, "radiance and irradiance");
 }
 
 }  // namespace

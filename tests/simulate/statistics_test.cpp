@@ -4,45 +4,29 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "tests/simulate/random_canopy.h"
 #include "tests/simulate/scene_text.h"
 
 namespace bpms::test {
 namespace {
 
 // One disc over half of a small cell: cheap, with light of many orders.
-std::string one_disc(const TemporaryFolder& folder, const std::string& bands, const std::string& reflectance,
-                     const std::string& sampling) {
+SceneText one_disc(const TemporaryFolder& folder, const std::string& sampling,
+                   const std::string& reflectance = "0.5", const std::string& wavelengths_nm = "") {
   folder.write("disc.def", "0.4 0.1 0.0 0.5 0.3 0.2 0.93\n0.3 -0.2 0.1 0.3 0.0 0.7 0.71\n");
-  return "[domain]\nsize_m = [1, 1]\n[materials.leaf]\ntype = \"bilambertian\"\nreflectance = " +
-         reflectance + R"(
-transmittance = 0.4
-[materials.soil]
-type = "lambertian"
-reflectance = 0.3
-[ground]
-type = "plane"
-material = "soil"
-[prototypes.disc]
-discs = "disc.def"
-material = "leaf"
-[[instances]]
-prototype = "disc"
-positions = [[0, 0, 0]]
-[illumination]
-sun = { zenith_deg = 40.0, azimuth_deg = 50.0, irradiance = "brf" }
-sky = { type = "isotropic", irradiance = "brf" }
-[[sensors]]
-name = "views"
-type = "brf"
-views = [[20, 100], [50, 210]]
-)" + bands +
-         "[sampling]\n" + sampling;
+  return {.domain = "size_m = [1, 1]",
+          .leaf = bilambertian(reflectance, "0.4"),
+          .soil = lambertian("0.3"),
+          .discs = "disc.def",
+          .sun = sun_at(40, 50),
+          .sky = white_sky,
+          .sensor = views("[[20, 100], [50, 210]]"),
+          .wavelengths_nm = wavelengths_nm,
+          .sampling = sampling};
 }
 
 TEST(Statistics, StandardErrorsCoverAsStudentsTSays) {
   const TemporaryFolder folder;
-  Simulation scene = simulation_of(folder, one_disc(folder, "", "0.5", "samples = 512\n"));
+  Simulation scene = simulation_of(folder, one_disc(folder, "samples = 512\n"));
   const Intersector intersector(scene.scene);
   scene.sampling.samples = 1 << 19;
   const double truth = simulate(scene, intersector, 999).sensors[0].radiance[0].value[0];
@@ -62,8 +46,12 @@ TEST(Statistics, StandardErrorsCoverAsStudentsTSays) {
 
 TEST(Statistics, SameBitsOnAnyNumberOfThreads) {
   const TemporaryFolder folder;
-  for (const char* sampling : {"samples = 4096\n", "target_se = \"1%\"\n"}) {
-    const Simulation scene = simulation_of(folder, one_disc(folder, "", "0.5", sampling));
+  const SceneText views = one_disc(folder, "samples = 4096"),
+                  to_target = one_disc(folder, "target_se = \"1%\"");
+  SceneText image = one_disc(folder, "samples = 32");
+  image.sensor = camera("[0, 0, 3]", "look_at = [0.2, 0, 0]\nup = [0, 1, 0]\nfov_deg = 20", 24, 16);
+  for (const SceneText& text : {views, to_target, image}) {
+    const Simulation scene = simulation_of(folder, text);
     set_threads(1);
     const SensorResult one = simulate(scene, 5).sensors[0];
     for (const int count : {2, 7}) {
@@ -75,6 +63,7 @@ TEST(Statistics, SameBitsOnAnyNumberOfThreads) {
         EXPECT_EQ(many.radiance[p].standard_error, one.radiance[p].standard_error);
       }
       EXPECT_EQ(many.sunlit.value, one.sunlit.value);
+      EXPECT_EQ(many.gap.value, one.gap.value);
     }
     set_threads(0);
   }
@@ -82,12 +71,12 @@ TEST(Statistics, SameBitsOnAnyNumberOfThreads) {
 
 TEST(Statistics, TargetsAreMetAndLimitsAreNamed) {
   const TemporaryFolder folder;
-  const Simulation scene = simulation_of(folder, one_disc(folder, "", "0.5", "target_se = 0.002\n"));
+  const Simulation scene = simulation_of(folder, one_disc(folder, "target_se = 0.002\n"));
   const Result result = simulate(scene, 5);
   EXPECT_EQ(result.stopped_by, "target_se");
   for (const double error : result.sensors[0].radiance[0].standard_error) EXPECT_LE(error, 0.002);
-  const Result limited = simulate(
-      simulation_of(folder, one_disc(folder, "", "0.5", "target_se = 1e-6\nmax_samples = 5000\n")), 5);
+  const Result limited =
+      simulate(simulation_of(folder, one_disc(folder, "target_se = 1e-6\nmax_samples = 5000\n")), 5);
   EXPECT_EQ(limited.stopped_by, "max_samples");
   for (const std::uint64_t samples : limited.sensors[0].samples) EXPECT_LE(samples, 5000u);
 }
@@ -96,11 +85,9 @@ TEST(Statistics, TargetsAreMetAndLimitsAreNamed) {
 TEST(Statistics, CountedInteractionsGiveWhatCarriedBandsGive) {
   const TemporaryFolder folder;
   const std::string sampling = "samples = 4096\norders = 6\n";
-  const SensorResult one =
-      simulate(simulation_of(folder, one_disc(folder, "", "0.5", sampling)), 5).sensors[0];
-  const std::string bands = "[bands]\nwavelengths_nm = [400,450,500,550,600,650,700,750,800,850,900,950]\n";
-  const SensorResult many =
-      simulate(simulation_of(folder, one_disc(folder, bands, "0.5", sampling)), 5).sensors[0];
+  const SensorResult one = sensor_result(folder, one_disc(folder, sampling), 5);
+  const std::string bands = "[400,450,500,550,600,650,700,750,800,850,900,950]";
+  const SensorResult many = sensor_result(folder, one_disc(folder, sampling, "0.5", bands), 5);
   ASSERT_EQ(one.parts.size(), many.parts.size());
   for (std::size_t p = 0; p < one.parts.size(); ++p)
     for (std::size_t view = 0; view < 2; ++view)
@@ -114,31 +101,21 @@ TEST(Statistics, CountedInteractionsGiveWhatCarriedBandsGive) {
 // A spectrum that varies: every band agrees with a run of that band alone.
 TEST(Statistics, EachBandOfABundleAgreesWithARunOfItsOwn) {
   const TemporaryFolder folder;
-  const std::string bands = "[bands]\nwavelengths_nm = [400,450,500,550,600,650,700,750,800,850,900,1000]\n";
+  const std::string bands = "[400,450,500,550,600,650,700,750,800,850,900,1000]";
   const SensorResult all =
-      simulate(
-          simulation_of(folder, one_disc(folder, bands, "[[400, 0.0], [1000, 0.6]]", "samples = 65536\n")), 5)
-          .sensors[0];
+      sensor_result(folder, one_disc(folder, "samples = 65536", "[[400, 0.0], [1000, 0.6]]", bands), 5);
   for (const std::size_t band : {0u, 5u, 11u}) {
     const double nm = band == 0 ? 400 : band == 5 ? 650 : 1000;
-    const SensorResult own =
-        simulate(simulation_of(folder, one_disc(folder, "", fmt::format("{}", 0.6 * (nm - 400) / 600),
-                                                "samples = 65536\n")),
-                 6)
-            .sensors[0];
-    for (std::size_t view = 0; view < 2; ++view) {
-      const double a = all.radiance[0].value[view * 12 + band],
-                   ea = all.radiance[0].standard_error[view * 12 + band];
-      const double b = own.radiance[0].value[view], eb = own.radiance[0].standard_error[view];
-      EXPECT_LT(std::abs(a - b) / std::hypot(ea, eb), 4) << nm << " nm: " << a << " and " << b;
-    }
+    const std::string reflectance = fmt::format("{}", 0.6 * (nm - 400) / 600);
+    const SensorResult own = sensor_result(folder, one_disc(folder, "samples = 65536", reflectance), 6);
+    for (std::size_t view = 0; view < 2; ++view)
+      EXPECT_LT(std::abs(z_of(all.radiance[0], view * 12 + band, own.radiance[0], view)), 4) << nm << " nm";
   }
 }
 
 TEST(Statistics, PartsAddUp) {
   const TemporaryFolder folder;
-  const SensorResult r =
-      simulate(simulation_of(folder, one_disc(folder, "", "0.5", "samples = 4096\n")), 5).sensors[0];
+  const SensorResult r = sensor_result(folder, one_disc(folder, "samples = 4096\n"), 5);
   for (std::size_t view = 0; view < 2; ++view) {
     const auto value = [&](Origin origin, Component component = Component::all, int order = every_order) {
       return part_of(r, origin, component, order).value[view];

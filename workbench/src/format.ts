@@ -125,6 +125,13 @@ export function median(values: readonly Num[]): number | null {
   return sorted.length % 2 === 1 || lower === undefined || upper === null ? upper : (lower + upper) / 2;
 }
 
+// Paths by their file names, as long as these tell them apart.
+export function fileNames(paths: readonly string[]): (path: string) => string {
+  const name = (path: string): string => path.slice(path.lastIndexOf("/") + 1);
+  const distinct = new Set(paths);
+  return new Set([...distinct].map(name)).size === distinct.size ? name : (path) => path;
+}
+
 // The largest of 1, 2, 5 times a power of ten that does not exceed x.
 export function niceBelow(x: number): number {
   if (!(x > 0) || !Number.isFinite(x)) return 1;

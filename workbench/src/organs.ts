@@ -24,9 +24,12 @@ export function organs(all: readonly Label[]): Organs {
   const first: Label[] = [];
   for (const o of all) {
     if (index.has(key(o))) continue;
-    index.set(key(o), index.size);
+    index.set(key(o), 0);
     first.push(o);
   }
+  // Leaves take the first colours, so that a leaf has one colour in all reports, whatever else was digitised.
+  const isLeaf = (o: Label): boolean => o.organ === "leaf";
+  [...first.filter(isLeaf), ...first.filter((o) => !isLeaf(o))].forEach((o, i) => index.set(key(o), i));
   const name = (o: Label): string => {
     const parts = [plants && o.plant !== null ? `plant ${o.plant}` : null, axes && o.axis !== null ? `axis ${o.axis}` : null];
     const organ = [o.organ ?? "organ", o.rank].filter((s) => s !== null && s !== "").join(" ");

@@ -67,7 +67,9 @@ function header(d: ReportDocument, parts: readonly Part[], provenance: boolean):
   const lines = summaries.flatMap((x) =>
     x.sentence === null ? [] : [h("li", {}, h("a", { href: `#${x.part.section.id}` }, sentenceCase(x.part.module?.step ?? "")), ": ", x.sentence)],
   );
-  const cards = summaries.flatMap((x) => x.cards).slice(0, 10);
+  // Of several reports of one kind the first one's figures stand here.
+  const all = summaries.flatMap((x) => x.cards);
+  const cards = all.filter((card, i) => all.findIndex((other) => other.label === card.label) === i).slice(0, 10);
   return h(
     "header",
     {},

@@ -50,5 +50,16 @@ const ordered = ["#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#d8c51e
 export function orderColour(i: number, n: number): string {
   if (n <= 1) return ordered[2] ?? ink;
   const last = ordered.length - 1;
-  return ordered[n <= ordered.length ? Math.min(i, last) : Math.min(last, Math.round((i * last) / (n - 1)))] ?? ink;
+  return n <= ordered.length ? (ordered[Math.max(0, Math.min(i, last))] ?? ink) : between(ordered, (i * last) / (n - 1));
+}
+
+// The colour at a place between the entries of a list, straight in red, green and blue.
+function between(colours: readonly string[], place: number): string {
+  const at = Math.max(0, Math.min(colours.length - 2, Math.floor(place)));
+  const [a, b] = [colours[at] ?? ink, colours[at + 1] ?? ink].map((hex) => Number.parseInt(hex.slice(1), 16));
+  const mixed = [16, 8, 0].map((shift) => {
+    const [from, to] = [((a ?? 0) >> shift) & 255, ((b ?? 0) >> shift) & 255];
+    return Math.round(from + Math.min(1, Math.max(0, place - at)) * (to - from));
+  });
+  return `#${mixed.map((x) => x.toString(16).padStart(2, "0")).join("")}`;
 }

@@ -7,6 +7,8 @@ import { inPlane } from "../src/figures/organ_functions";
 import { panelGrid } from "../src/figures/panels";
 import { quiver, quiverScale, vectors } from "../src/figures/quiver";
 import { planes, signedZenith } from "../src/figures/view_angles";
+import { organs } from "../src/organs";
+import { orderColour } from "../src/palette";
 
 test.each(deWit)("the $name distribution integrates to one", ({ density }) => {
   const n = 2000;
@@ -103,4 +105,15 @@ test("a midrib lies in the plane through its farthest point", () => {
   expect(base).toEqual({ r: 0, z: 0 });
   expect(tip?.r).toBeCloseTo(5, 12);
   expect(tip?.z).toBe(2);
+});
+
+test("scattering orders have colours of their own, however many there are", () => {
+  for (const n of [2, 8, 10, 24]) expect(new Set(Array.from({ length: n }, (_, i) => orderColour(i, n))).size).toBe(n);
+});
+
+test("a leaf has its colour whether or not a bud was digitised before it", () => {
+  const leaf = { plant: "1", axis: "1", rank: "1", organ: "leaf" };
+  const bud = { plant: "1", axis: "1", rank: "0", organ: "bud" };
+  expect(organs([bud, leaf]).colour(leaf)).toBe(organs([leaf]).colour(leaf));
+  expect(organs([bud, leaf]).colour(bud)).not.toBe(organs([bud, leaf]).colour(leaf));
 });

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { area, count, duration, fixed, length, median, niceBelow, percent, significant, withSigma } from "../src/format";
+import { area, count, duration, fileNames, fixed, length, median, niceBelow, percent, significant, withSigma } from "../src/format";
 
 test("an uncertainty has two significant digits and the value the same decimals", () => {
   expect(withSigma(83.1712, 0.108, "mm")).toBe("83.17 ± 0.11 mm");
@@ -68,4 +68,9 @@ test("nice numbers do not exceed what they stand for", () => {
   expect(niceBelow(0.0201)).toBeCloseTo(0.02, 12);
   expect(niceBelow(1)).toBe(1);
   expect(niceBelow(1000)).toBe(1000);
+});
+
+test("paths are shown by file names while these tell them apart", () => {
+  expect(["a/x.jpg", "a/y.jpg"].map(fileNames(["a/x.jpg", "a/y.jpg"]))).toEqual(["x.jpg", "y.jpg"]);
+  expect(["a/x.jpg", "b/x.jpg"].map(fileNames(["a/x.jpg", "b/x.jpg"]))).toEqual(["a/x.jpg", "b/x.jpg"]);
 });

@@ -34,6 +34,21 @@ test.each([
   expect(book.figures.map((f) => f.id)).toEqual(ids);
 });
 
+test("under a sky the components of the sun's light are shown", () => {
+  const part = (origin: string, component: string) => ({ sensor: "s", quantity: "hdrf", band: "1", origin, component, vza_deg: [0, 10], value: [0.1, 0.2], standard_error: [0.01, 0.01] });
+  const series = [part("total", "all"), part("direct", "all"), part("direct", "uc_sgl"), part("direct", "co_sgl"), part("direct", "mlt"), part("diffuse", "all")];
+  const { book } = renderDocument(readDocument({ reports: [{ report: "simulate", series }] }));
+  expect(book.figures.map((f) => f.id)).toContain("simulate-components");
+});
+
+test("AICc is compared within one function of one organ", () => {
+  const aicc_table = [["inclination", "p", -200], ["inclination", "n", -197], ["twist", "p", 52.5], ["twist", "n", 50]].map(([f, kind, aicc]) => ({ function: f, kind, order: 3, aicc }));
+  const { element } = renderDocument(readDocument({ reports: [{ report: "fit", organs: [{ rank: "1", organ: "leaf", aicc_table }] }] }));
+  const rows = [...element.querySelectorAll("tr")].map((row) => [...row.children].map((cell) => cell.textContent));
+  expect(rows).toContainEqual(["leaf 1", "inclination", "0.0", "3.0"]);
+  expect(rows).toContainEqual(["leaf 1", "twist", "2.5", "0.0"]);
+});
+
 test("the whole sample is shown without a failure, its figures numbered through", () => {
   const book = showPage(place(), source);
   expect(book?.figures.map((f) => f.number)).toEqual(book?.figures.map((_, i) => i + 1));

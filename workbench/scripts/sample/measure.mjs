@@ -129,7 +129,7 @@ export function fit() {
       functions: { inclination: f("p", 3, inclination, 1.6, "deg"), azimuth: f("p", 2, azimuth, 1.1, "deg"), twist: f("p", 2, twist, 3.2, "deg"), width: f("n", 6, width, 0.0004, "m") },
       measured: { l: range(0, 1, 11).map((x) => round(x, 3)), width: range(0, 1, 11).map((x) => round(Math.max(0, width(leaf, x) + 0.0004 * normal()), 4)) },
       points_m: midrib(leaf, 11).map((p) => p.map((v) => round(v + rms * 0.8 * normal(), 5))), fitted_m: fitted.map((p) => p.map((v) => round(v, 5))),
-      aicc_table: [["p", 2, 14.2], ["p", 3, 0], ["p", 4, 2.7], ["n", 4, 9.8], ["f", 3, 6.1]].map(([kind, order, d]) => ({ kind, order, aicc: round(-120 + d + (d ? leaf.rank * 0.6 : 0), 4) })),
+      aicc_table: [["p", 2, 14.2], ["p", 3, 0], ["p", 4, 2.7], ["n", 4, 9.8], ["f", 3, 6.1]].map(([kind, order, d]) => ({ function: "inclination", kind, order, aicc: round(-120 + d + (d ? leaf.rank * 0.6 : 0), 4) })),
     };
   }); // prettier-ignore
   return { report: "fit", organs, summary: { organs: organs.length, rms_fraction_median: 0.0039, rms_fraction_p90: 0.0046, failed: 0 }, provenance: provenance("bpms fit vectors.csv -o plant.bpms --report fit.json", ["vectors.csv"]) };

@@ -2,7 +2,7 @@
 
 import type { Section } from "../book";
 import type { Calibrate } from "../data";
-import { significant } from "../format";
+import { fileNames, niceBelow, significant } from "../format";
 import { colour, rejected } from "../palette";
 import { axisTitle, type Trace } from "../plot";
 import { panelGrid } from "./panels";
@@ -17,14 +17,15 @@ export function errorsByView(r: Calibrate, s: Section): void {
   const views = r.views.filter((v) => v.rms_px !== null);
   if (views.length === 0) return;
   const names = cameraNames(r);
-  const label = (v: Calibrate["views"][number]): string => v.image ?? "?";
+  const short = fileNames(views.map((v) => v.image ?? "?"));
+  const label = (v: Calibrate["views"][number]): string => short(v.image ?? "?");
   const bar = (name: string, chosen: typeof views, c: string): Trace => ({
     type: "bar",
     name,
     x: chosen.map(label),
     y: chosen.map((v) => v.rms_px),
-    text: chosen.map((v) => (v.outlier && v.reason ? `left out: ${v.reason}` : "")),
-    hovertemplate: "%{x}<br>%{y:.3f} px<br>%{text}<extra></extra>",
+    text: chosen.map((v) => (v.image ?? "") + (v.outlier && v.reason ? `<br>left out: ${v.reason}` : "")),
+    hovertemplate: "%{text}<br>%{y:.3f} px<extra></extra>",
     marker: { color: c },
     textposition: "none",
   });
@@ -96,6 +97,7 @@ export function residualScatter(r: Calibrate, s: Section): void {
   const largest = Math.max(0, ...all.flat().map((p) => Math.max(Math.abs(p.du), Math.abs(p.dv))));
   if (largest === 0) return;
   const range = [-1.08 * largest, 1.08 * largest];
+  const dtick = niceBelow(largest / 2);
   const data = names.map((name, i): Trace => ({
     type: "scatter",
     mode: "markers",
@@ -112,8 +114,8 @@ export function residualScatter(r: Calibrate, s: Section): void {
       maxWidth: 560,
       data,
       layout: {
-        xaxis: { title: axisTitle("du (px)"), range, constrain: "domain" },
-        yaxis: { title: axisTitle("dv (px)"), range, scaleanchor: "x", constrain: "domain" },
+        xaxis: { title: axisTitle("du (px)"), range, dtick, constrain: "domain" },
+        yaxis: { title: axisTitle("dv (px)"), range, dtick, scaleanchor: "x", constrain: "domain" },
         legend: { orientation: "h", x: 0, y: 1.01, yanchor: "bottom" },
         showlegend: true,
       },

@@ -36,7 +36,10 @@ function panelsOf(bands: BandGroup[], yTitle: string, draw: (band: BandGroup, at
 }
 
 export function scatteringParts(r: Simulate, s: Section): void {
-  const chosen = first(r.series.filter((x) => radiometric(x) && x.order === null && x.material === null && (x.origin ?? "total") === "total" && x.component !== null));
+  // Components are those of direct light; under a sky its own share is the direct one.
+  const parts = r.series.filter((x) => radiometric(x) && x.order === null && x.material === null && x.component !== null);
+  const origin = parts.find((x) => x.component !== "all")?.origin ?? "total";
+  const chosen = first(parts.filter((x) => (x.origin ?? "total") === origin));
   if (!chosen.some((x) => x.component !== "all")) return;
   const order = Object.keys(componentNames);
   const spec = panelsOf(byBand(chosen), quantityName(chosen[0]?.quantity ?? null), (band, at) =>
@@ -44,7 +47,7 @@ export function scatteringParts(r: Simulate, s: Section): void {
       .sort((a, b) => order.indexOf(a.component ?? "") - order.indexOf(b.component ?? ""))
       .map((x, i) => line(x, componentNames[x.component ?? ""] ?? x.component ?? "", componentColours[x.component ?? ""] ?? colour(i), at)),
   );
-  s.plot("components", spec, "Single scattering by the ground through the gaps, single scattering by the canopy, and multiple scattering; together they are the whole.");
+  s.plot("components", spec, `Single scattering by the ground through the gaps, single scattering by the canopy, and multiple scattering; together they are the whole${origin === "direct" ? " of the sun's light" : ""}.`);
 }
 
 export function lightParts(r: Simulate, s: Section): void {
@@ -58,7 +61,9 @@ export function lightParts(r: Simulate, s: Section): void {
       return line(x, origin === "direct" ? "direct (sun)" : origin === "diffuse" ? "diffuse (sky)" : origin, c, at, dash);
     }),
   );
-  s.plot("origin", spec, "Light that came from the sun (direct) and from the sky (diffuse), and their sum.");
+  const ofReflectance = (chosen[0]?.quantity ?? "brf") !== "radiance";
+  const total = ofReflectance ? "each over its own irradiance; the total is their mean, weighted by irradiance" : "and their sum";
+  s.plot("origin", spec, `Light that came from the sun (direct) and from the sky (diffuse), ${total}.`);
 }
 
 function orderBars(series: Series[], x: (o: Series) => { at: (number | string)[]; value: (number | null)[] }): Trace[] {
@@ -104,7 +109,7 @@ export function orders(r: Simulate, s: Section): void {
   const several = bands.length > 1 && bands.some((b) => b.series.some((x) => x.vza_deg.length > 0));
   const atNadir: Choice = { label: "all bands at the view nearest to nadir", spec: () => ({ height: 400, data: orderBars(chosen, nearest), layout: layout("band") }) };
   const choices = [...bands.filter((b) => b.series.some((x) => x.vza_deg.length > 1)).map(byAngle).reverse(), ...(several ? [atNadir] : [])];
-  s.plot("orders", choices.length > 0 ? choices : [atNadir], "Contribution of each order of scattering, stacked to the whole.");
+  s.plot("orders", choices.length > 0 ? choices : [atNadir], `Contribution of each order of scattering, stacked; orders above ${Math.max(...chosen.map((x) => x.order ?? 0))} are not shown.`);
 }
 
 export function fractions(r: Simulate, s: Section): void {

@@ -108,7 +108,7 @@ export function reflectance(r: Simulate, s: Section): void {
     s.plot(
       quantity,
       anglePanels({ groups, yTitle: quantityName(quantity) }),
-      `${quantityName(quantity)} over the signed view zenith angle, a panel for each band. Bars are ±1.96 standard errors (often smaller than the dots).`,
+      `${sentenceCase(quantityName(quantity))} over the signed view zenith angle${groups.length > 1 ? ", a panel for each band" : ""}. Bars are ±1.96 standard errors (often smaller than the dots).`,
     );
   }
 }

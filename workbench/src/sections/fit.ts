@@ -22,7 +22,7 @@ function organTable(r: Fit, names: Organs, s: Section): void {
       { head: "organ", text: true, cell: (o) => names.name(o) },
       { head: "points", cell: (o) => count(o.points) },
       { head: "length", cell: (o) => length(o.length_m, o.length_sigma_m) },
-      { head: "width", cell: (o) => length(o.width_m, null, 3) },
+      { head: "width", cell: (o) => length(o.width_m, o.width_sigma_m, 3) },
       { head: "rms", unit: "mm", cell: (o) => significant(o.rms_m === null ? null : o.rms_m * 1000, 2) },
       { head: "rms", unit: "% of length", cell: (o) => significant(o.rms_fraction === null ? null : o.rms_fraction * 100, 2) },
       { head: "χ²/dof", cell: (o) => significant(o.chi2_per_dof, 3) },
@@ -40,27 +40,26 @@ function organTable(r: Fit, names: Organs, s: Section): void {
   );
 }
 
+// AICc compares what was tried for one function of one organ; figures of different functions have nothing in common.
 function evidence(r: Fit, names: Organs, s: Section): void {
   const rows = r.organs.flatMap((o) => {
-    const known = o.aicc_table.filter((a) => a.aicc !== null);
-    const best = Math.min(...known.map((a) => a.aicc ?? Infinity));
-    return known.map((a) => ({ o, kind: kindName(a.kind, a.order), delta: (a.aicc ?? 0) - best }));
+    const functions = [...new Set(o.aicc_table.map((a) => a.function))];
+    return functions.flatMap((f) => {
+      const tried = o.aicc_table.filter((a) => a.function === f && a.aicc !== null);
+      const best = Math.min(...tried.map((a) => a.aicc ?? Infinity));
+      const delta = new Map(tried.map((a) => [kindName(a.kind, a.order), (a.aicc ?? 0) - best]));
+      return delta.size === 0 ? [] : [{ o, function: f, delta }];
+    });
   });
-  const tried = [...new Set(rows.map((row) => row.kind))];
-  const withTable = r.organs.filter((o) => o.aicc_table.length > 0);
+  const tried = [...new Set(rows.flatMap((row) => [...row.delta.keys()]))];
   s.table(
     [
-      { head: "organ", text: true, cell: (o) => names.name(o) },
-      ...tried.map((kind) => ({
-        head: kind,
-        cell: (o: Fit["organs"][number]) => {
-          const row = rows.find((q) => q.o === o && q.kind === kind);
-          return row ? fixed(row.delta, 1) : missing;
-        },
-      })),
+      { head: "organ", text: true, cell: (row) => names.name(row.o) },
+      { head: "function", text: true, cell: (row) => row.function ?? missing },
+      ...tried.map((kind) => ({ head: kind, cell: (row: (typeof rows)[number]) => fixed(row.delta.get(kind), 1) })),
     ],
-    withTable,
-    "ΔAICc of the functions that were tried, against the best of each organ (0). A difference above 10 leaves little doubt. " + kinds,
+    rows,
+    "ΔAICc of what was tried for each function, against the best (0). A difference above 10 leaves little doubt. " + kinds,
   );
 }
 

@@ -65,12 +65,12 @@ function checkFigure(r: Reconstruct, s: Section): void {
       height: 360,
       data: [
         { type: "bar", name: "used", x: good.centres, y: good.counts, marker: { color: colour(2) } },
-        { type: "bar", name: "rejected", x: bad.centres, y: bad.counts, marker: { color: rejected } },
+        ...(bad.counts.some((n) => n > 0) ? [{ type: "bar" as const, name: "rejected", x: bad.centres, y: bad.counts, marker: { color: rejected } }] : []),
       ],
       layout: {
         barmode: "stack",
         bargap: 0.04,
-        xaxis: { title: axisTitle("|ΔZ| / σ"), range: [0, top] },
+        xaxis: { title: axisTitle("|ΔZ| / σ"), range: [0, top], ...(top === 12 ? { tickvals: [0, 2, 4, 6, 8, 10, 12], ticktext: ["0", "2", "4", "6", "8", "10", "≥ 12"] } : {}) },
         yaxis: { title: axisTitle("points"), range: [0, 1.18 * Math.max(...good.counts.map((n, i) => n + (bad.counts[i] ?? 0)))] },
         shapes: line ? [line.shape] : [],
         annotations: line ? [line.annotation] : [],
@@ -78,7 +78,7 @@ function checkFigure(r: Reconstruct, s: Section): void {
         showlegend: true,
       },
     },
-    `Distance in depth between the points and ${r.check.name ?? "an independent measurement"}, in units of its σ` +
+    `Check by ${r.check.name ?? "an independent measurement"}: distances in depth in units of their σ` +
       `${top === 12 ? " (values above 12 in the last bar)" : ""}. If the σ are right, half of the points lie below 0.674.`,
   );
 }
@@ -97,11 +97,15 @@ function rejectedTable(r: Reconstruct, names: Organs, s: Section): void {
   );
 }
 
+function measured(f: Reconstruct["figures"][number]): string {
+  return f.unit === "m" ? length(f.value, f.sigma) : withSigma(f.value, f.sigma, f.unit === "deg" ? "°" : (f.unit ?? ""));
+}
+
 function figuresTable(r: Reconstruct, s: Section): void {
   s.table(
     [
       { head: "quantity", text: true, cell: (f) => sentenceCase(f.name ?? "") },
-      { head: "value ± σ", cell: (f) => withSigma(f.value, f.sigma, f.unit ?? "") },
+      { head: "value ± σ", cell: measured },
       { head: "remark", text: true, cell: (f) => f.note },
     ],
     r.figures,
@@ -124,7 +128,7 @@ export const reconstruct = defineSection({
         : `${plural(r.points ?? r.curves.reduce((n, c) => n + c.points.length, 0), "point")} reconstructed, ${count(r.rejected.length)} rejected` +
           `${r.reprojection_rms_px === null ? "" : `, reprojected to ${significant(r.reprojection_rms_px, 3)} px rms`}.`,
     cards: [
-      ...r.figures.slice(0, 1).map((f) => ({ label: sentenceCase(f.name ?? ""), value: withSigma(f.value, f.sigma, f.unit ?? "") })),
+      ...r.figures.slice(0, 1).map((f) => ({ label: sentenceCase(f.name ?? ""), value: measured(f) })),
       ...(r.reprojection_rms_px === null ? [] : [{ label: "Reprojection", value: `${significant(r.reprojection_rms_px, 3)} px`, note: "rms" }]),
     ],
   }),

@@ -3,7 +3,7 @@
 import type { Section } from "../book";
 import { simulate as read, type Simulate } from "../data";
 import { h, imageSource } from "../dom";
-import { reflectance } from "../figures/reflectance";
+import { isWhole, reflectance } from "../figures/reflectance";
 import { fractions, lightParts, orders, scatteringParts } from "../figures/radiance_parts";
 import { spectra } from "../figures/spectra";
 import { count, duration, magnitude, missing, plural } from "../format";
@@ -11,6 +11,7 @@ import { defineSection } from "./section";
 
 const reasons: Record<string, string> = {
   target_se: "the wanted standard error was reached",
+  samples: "the wanted number of paths was traced",
   max_samples: "the largest number of samples was reached",
   max_seconds: "the time was up",
   interrupt: "it was interrupted",
@@ -32,7 +33,7 @@ function images(r: Simulate, s: Section): void {
 
 function runTable(r: Simulate, s: Section): void {
   const rows = [
-    ["samples per view", magnitude(r.samples)],
+    ["paths traced", magnitude(r.samples)],
     ["rays", magnitude(r.rays)],
     ["time", duration(r.seconds)],
     ["rays per second", r.rays !== null && r.seconds ? magnitude(r.rays / r.seconds) : missing],
@@ -60,7 +61,7 @@ export const simulate = defineSection({
     "View zenith angles are signed: negative on the sun's side, so that the hot spot lies at minus the sun's zenith angle (dashed line).",
   read,
   summarise: (r) => {
-    const totals = r.series.filter((x) => x.component === "all" || x.component === null);
+    const totals = r.series.filter((x) => x.material === null && isWhole(x) && x.quantity !== "gap");
     const se = totals.flatMap((x) => x.standard_error).filter((e): e is number => e !== null);
     const effort = r.rays === null ? "" : ` with ${magnitude(r.rays)} rays`;
     const time = r.seconds === null ? "" : ` in ${duration(r.seconds)}`;
