@@ -166,7 +166,8 @@ void add_half_sets(const BundleProblem& problem, const BundleState& state,
     keep.flip();
     const Half even = half_set(problem, state, keep);
     out.half_sets = {odd.baseline_m, even.baseline_m, std::hypot(odd.sigma_m, even.sigma_m)};
-  } catch (const Error&) {  // too few frames for halves: the report has none
+  } catch (const Error& error) {  // too few frames for halves: the report has none
+    if (error.kind() != ErrorKind::numeric) throw;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "calibrate/chessboard_detector.h"
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 
@@ -105,6 +106,7 @@ Observations find_corners(const std::vector<std::string>& paths, const Target& t
   for (const std::string& path : paths) images.push_back(name_image(path));
   Progress progress("finding corners", images.size());
   parallel_for(images.size(), [&](std::size_t i) {
+    throw_if_interrupted();
     if (images[i].trouble.empty()) look(target, images[i]);
     progress.add();
   });

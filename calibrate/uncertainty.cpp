@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/interrupt.h"
 #include "core/parallel.h"
 
 namespace bpms {
@@ -29,6 +30,7 @@ Clustered jackknife(const BundleProblem& problem, const BundleState& solution,
              count = static_cast<Eigen::Index>(pairs.size());
   Eigen::MatrixXd values(columns + count, static_cast<Eigen::Index>(n));  // a column for each frame left out
   parallel_for(n, [&](std::size_t i) {
+    throw_if_interrupted();
     std::vector<bool> keep(static_cast<std::size_t>(problem.frames), true);
     keep[static_cast<std::size_t>(equations.frames[i].frame)] = false;
     const BundleState without = solve_subset(problem, solution, keep);
