@@ -17,6 +17,8 @@ std::string read_file(const std::string& path) {
   if (!std::filesystem::exists(status)) fail(ErrorKind::missing_resource, {path}, "no such file");
   if (std::filesystem::is_directory(status))
     fail(ErrorKind::missing_resource, {path}, "is a folder, a file was expected");
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    fail(ErrorKind::missing_resource, {path}, "is a device, a file was expected");  // it may never end
   // zlib reads plain files as they are, so one path serves both.
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);
   if (!file) fail(ErrorKind::missing_resource, {path}, "cannot be opened: {}", std::strerror(errno));

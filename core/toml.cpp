@@ -60,22 +60,27 @@ void refuse_deep_nesting(const std::string& path, std::string_view text) {
   }
 }
 
-void report_unknown(const std::string& path, const toml::node& node,
-                    const std::map<const void*, std::set<std::string, std::less<>>>& known) {
+using Known = std::map<const void*, std::set<std::string, std::less<>>>;
+
+void refuse_unknown(const std::string& path, const toml::table& table, const toml::key& key,
+                    const Known& known) {
+  const auto asked = known.find(&table);
+  if (asked != known.end() && asked->second.contains(key.str())) return;
+  std::vector<std::string> words;
+  if (asked != known.end()) words.assign(asked->second.begin(), asked->second.end());
+  bad_input(location(path, key.source()), "unknown key {}{}", in_quotes(key.str()),
+            did_you_mean(key.str(), words));
+}
+
+void report_unknown(const std::string& path, const toml::node& node, const Known& known) {
   if (const toml::array* array = node.as_array()) {
     for (const toml::node& element : *array) report_unknown(path, element, known);
     return;
   }
   const toml::table* table = node.as_table();
   if (table == nullptr) return;
-  const auto asked = known.find(&node);
   for (const auto& [key, value] : *table) {
-    if (asked == known.end() || !asked->second.contains(key.str())) {
-      std::vector<std::string> words;
-      if (asked != known.end()) words.assign(asked->second.begin(), asked->second.end());
-      bad_input(location(path, key.source()), "unknown key {}{}", in_quotes(key.str()),
-                did_you_mean(key.str(), words));
-    }
+    refuse_unknown(path, *table, key, known);
     report_unknown(path, value, known);
   }
 }
@@ -127,6 +132,14 @@ std::string TomlValue::file_relative(std::string_view path) const {
 void TomlValue::reject(const std::string& message) const {
   const std::string who = name_.empty() ? "" : name_ + ": ";
   throw Error(ErrorKind::bad_input, where(), who + message);
+}
+
+void TomlValue::reject_choice(const std::string& message) const {
+  const toml::table* table = node_ != nullptr ? as_node(node_)->as_table() : nullptr;
+  if (table != nullptr) {
+    for (const auto& [key, value] : *table) refuse_unknown(state_->path, *table, key, state_->known);
+  }
+  reject(message);
 }
 
 TomlValue TomlValue::get(std::string_view key) const {

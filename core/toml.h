@@ -68,6 +68,9 @@ class TomlValue {
 
   // bad_input at this value; `message` in words ("expected ...").
   [[noreturn]] void reject(const std::string& message) const;
+  // The same for a table that lacks one of several keys, once all the keys it may have were asked for: when
+  // it holds one that was not, that is the likelier mistake and is named instead.
+  [[noreturn]] void reject_choice(const std::string& message) const;
 
  private:
   friend class TomlDocument;

@@ -61,18 +61,36 @@ Sighting sighting(const ImagePoint& p, const Rig& rig) {
   return {index, {p.u_px, p.v_px}, p.sigma_px};
 }
 
+// Views that are images: two or more, each of one camera that has no other. Their names in the rig's order,
+// joined; empty where views are frames.
+std::string frame_of_images(const std::vector<ImagePoint>& points, const Rig& rig) {
+  std::map<std::string, std::string> camera_of_view, view_of_camera;
+  for (const ImagePoint& p : points) {
+    if (camera_of_view.emplace(p.view, p.camera).first->second != p.camera) return {};
+    if (view_of_camera.emplace(p.camera, p.view).first->second != p.view) return {};
+  }
+  std::string out;
+  if (view_of_camera.size() < 2) return out;
+  for (const Camera& camera : rig.cameras) {
+    if (const auto view = view_of_camera.find(camera.name); view != view_of_camera.end())
+      out += (out.empty() ? "" : "+") + view->second;
+  }
+  return out;
+}
+
 std::vector<ReconstructedPoint> gather(const std::vector<ImagePoint>& points, const Rig& rig,
-                                       const ReconstructOptions& options) {
+                                       const ReconstructOptions& options, const std::string& one_frame) {
   std::map<std::pair<OrganLabel, int>, ReconstructedPoint> gathered;
   for (const ImagePoint& p : points) {
     if (options.view && p.view != *options.view) continue;
+    const std::string& view = one_frame.empty() ? p.view : one_frame;
     auto& out = gathered[{p.label, p.point}];
     if (out.sightings.empty()) {
       out.label = p.label;
       out.point = p.point;
-      out.view = p.view;
+      out.view = view;
       out.where = p.where;
-    } else if (out.view != p.view) {
+    } else if (out.view != view) {
       // Between views the plant may have moved or been turned, so that their rays need not meet.
       bad_input(
           p.where,
@@ -130,7 +148,11 @@ void solve(ReconstructedPoint& point, const Rig& rig, const RigErrors* errors, d
 Vectors reconstruct(const std::vector<ImagePoint>& points, const Rig& rig,
                     const ReconstructOptions& options) {
   Vectors out;
-  out.points = gather(points, rig, options);
+  const std::string one_frame = options.view ? std::string() : frame_of_images(points, rig);
+  if (!one_frame.empty())
+    out.notes.push_back(
+        fmt::format("each view is of one camera alone: taken for one frame, {}", in_quotes(one_frame)));
+  out.points = gather(points, rig, options, one_frame);
   std::optional<RigErrors> errors;
   if (options.with_rig_covariance) errors.emplace(rig);
   parallel_for(out.points.size(), [&](std::size_t i) {

@@ -61,14 +61,16 @@ struct ReconstructedPoint {
 
 struct Vectors {
   std::vector<ReconstructedPoint> points;  // accepted and refused, in the order of their labels
+  std::vector<std::string> notes;          // in words, for the user
   std::vector<VectorPoint> accepted() const;
   std::size_t refused() const;
   // Per axis, over the accepted points, no correction for degrees of freedom.
   double reprojection_rms_px() const;
 };
 
-// A camera that the rig does not have, a pixel outside its image, or a point in two views at once is bad
-// input.
+// A view is one frame of the whole rig. Where every camera has one view and every view one camera, the views
+// are taken for the names of the images of a single frame (noted). A camera that the rig does not have, a
+// pixel outside its image, or a point in two views at once is bad input.
 Vectors reconstruct(const std::vector<ImagePoint>& points, const Rig& rig,
                     const ReconstructOptions& options = {});
 

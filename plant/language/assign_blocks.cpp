@@ -37,20 +37,47 @@ void note_ambiguous_numbers(Plant& plant) {
   }
 }
 
-void note_sizes(Plant& plant, const Block& block) {
-  const OrganAttributes& a = block.attributes;
-  const std::string organ = organ_name(block.kind);
+// The sizes that blocks lack: one note for each kind of organ and size, however many blocks it is.
+void note_missing_sizes(Plant& plant) {
+  struct Size {
+    const char* lack;
+    bool (*is_lacking)(OrganKind, const OrganAttributes&);
+  };
+  constexpr Size sizes[] = {
+      {"a_length and no extent",
+       [](OrganKind kind, const OrganAttributes& a) { return kind != OrganKind::bud && a.length_m == 0; }},
+      {"a_width and no surface",
+       [](OrganKind kind, const OrganAttributes& a) { return kind == OrganKind::leaf && a.width_m == 0; }},
+      {"a_radius and no surface",
+       [](OrganKind kind, const OrganAttributes& a) { return kind != OrganKind::leaf && a.radius_m == 0; }},
+  };
+  for (const OrganKind kind : {OrganKind::bud, OrganKind::stem, OrganKind::leaf, OrganKind::head}) {
+    for (const Size& size : sizes) {
+      std::vector<const Block*> lacking;
+      for (const Block& block : plant.blocks) {
+        if (block.kind == kind && size.is_lacking(kind, block.attributes)) lacking.push_back(&block);
+      }
+      if (lacking.empty()) continue;
+      std::string lines;
+      for (std::size_t i = 1; i < lacking.size(); ++i)
+        lines += fmt::format("{}{}", i > 1 ? ", " : "", lacking[i]->where.line);
+      note(
+          plant, lacking[0]->where,
+          fmt::format("this {} has no {}", organ_name(kind), size.lack) +
+              (lines.empty() ? ""
+                             : fmt::format("; the same at line{} {}", lacking.size() > 2 ? "s" : "", lines)));
+    }
+  }
+}
+
+void note_long_leaves(Plant& plant) {
   constexpr double long_leaf_m = 1;
-  if (block.kind == OrganKind::rotation) return;
-  if (block.kind != OrganKind::bud && a.length_m == 0)
-    note(plant, block.where, "this " + organ + " has no a_length and no extent");
-  if (block.kind == OrganKind::leaf && a.width_m == 0)
-    note(plant, block.where, "this leaf has no a_width and no surface");
-  if (block.kind != OrganKind::leaf && a.radius_m == 0)
-    note(plant, block.where, "this " + organ + " has no a_radius and no surface");
-  if (block.kind == OrganKind::leaf && a.length_m > long_leaf_m)
-    note(plant, block.where,
-         fmt::format("a leaf {:.4g} m long; is the unit ('units {}') right?", a.length_m, plant.unit));
+  for (const Block& block : plant.blocks) {
+    const double length_m = block.attributes.length_m;
+    if (block.kind == OrganKind::leaf && length_m > long_leaf_m)
+      note(plant, block.where,
+           fmt::format("a leaf {:.4g} m long; is the unit ('units {}') right?", length_m, plant.unit));
+  }
 }
 
 }  // namespace
@@ -96,8 +123,9 @@ void assign_blocks(Plant& plant) {
       note(plant, block.where,
            fmt::format("nothing uses the block '{}{}'", letter(block.kind),
                        block.number ? fmt::format(" {}", *block.number) : std::string()));
-    note_sizes(plant, block);
   }
+  note_missing_sizes(plant);
+  note_long_leaves(plant);
 }
 
 }  // namespace bpms

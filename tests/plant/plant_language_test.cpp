@@ -189,6 +189,9 @@ TEST(PlantLanguage, NotesWhatIsUnusedMissingOrAmbiguous) {
   EXPECT_THAT(parse("[l(1)][l]\nl {" + leaf + "}").warnings, IsEmpty());  // its own ordinal: no ambiguity
   EXPECT_THAT(parse("l\nl { a_length 3 }").warnings,
               ElementsAre("x.bpms:2:1: this leaf has no a_width and no surface"));
+  const std::string bare = " { a_length 3 }\n";
+  EXPECT_THAT(parse("[l][l][l]\nl 1" + bare + "l 2" + bare + "l 3" + bare).warnings,
+              ElementsAre("x.bpms:2:1: this leaf has no a_width and no surface; the same at lines 3, 4"));
   EXPECT_THAT(parse("units m\nl\nl { a_length 1.2 a_width 0.1 }").warnings,
               ElementsAre("x.bpms:3:1: a leaf 1.2 m long; is the unit ('units m') right?"));
   EXPECT_THAT(parse("units m\nl\nl { a_length 1 a_width 0.1 }").warnings, IsEmpty());

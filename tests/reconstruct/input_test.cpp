@@ -56,6 +56,28 @@ TEST(Input, AViewCanBeChosen) {
   BPMS_EXPECT_ERROR(from(two, options), ErrorKind::bad_input, "no point is of view 'c'");
 }
 
+// As people digitise: the view says the image, and each image is of another camera.
+TEST(Input, ViewsNamedAfterTheirImagesAreOneFrame) {
+  const std::string left = "1,1,1,leaf,midrib,1,l.png,left,1200,600,0.5\n",
+                    right = "1,1,1,leaf,midrib,1,r.png,right,400,600,0.5\n";
+  for (const std::string& rows : {left + right, right + left}) {
+    const Vectors vectors = from(rows);
+    ASSERT_EQ(vectors.points.size(), 1u);
+    EXPECT_EQ(vectors.points[0].view, "l.png+r.png");
+    EXPECT_EQ(vectors.points[0].estimate->x_m, from(good).points[0].estimate->x_m);
+    EXPECT_THAT(vectors.notes, ::testing::ElementsAre(::testing::HasSubstr("'l.png+r.png'")));
+  }
+  EXPECT_TRUE(from(good).notes.empty());
+  // A second image of a camera, or a second camera in a view, and views are frames again.
+  for (const char* more :
+       {"1,1,1,leaf,midrib,2,m.png,left,1200,600,0.5\n", "1,1,1,leaf,midrib,2,l.png,right,400,600,0.5\n"})
+    BPMS_EXPECT_ERROR(from(left + right + more), ErrorKind::bad_input,
+                      "stands in view 'l.png' and in view 'r.png'");
+  ReconstructOptions options;
+  options.view = "l.png";
+  EXPECT_EQ(from(left + right, options).points.at(0).reason, "seen in one image only");
+}
+
 TEST(Input, PointsThatCannotBeReconstructedAreKeptWithTheirReason) {
   const Vectors vectors =
       from(good +
