@@ -40,7 +40,7 @@ SceneText two_faced_canopy(const TemporaryFolder& folder, bool triangles) {
 void expect_reciprocal(bool triangles) {
   const TemporaryFolder folder;
   SceneText scene = two_faced_canopy(folder, triangles);
-  scene.sampling = "samples = 131072";
+  scene.sampling = "samples = 65536";
   scene.sun = sun_at(60, 130);
   scene.sensor = views("[[15, 40], [45, 250]]");
   const SensorResult there = sensor_result(folder, scene, 1);
@@ -75,7 +75,7 @@ TEST(Reciprocity, HdrfUnderAnIsotropicSkyIsTheDhr) {
   scene.sun.clear();
   scene.sky = white_sky;
   scene.sensor = views("[[50, 75]]");
-  scene.sampling = "samples = 131072";
+  scene.sampling = "samples = 65536";
   const SensorResult from_sky = sensor_result(folder, scene);
   const double hdrf = from_sky.radiance[0].value[0];
   const double error = std::hypot(to_hemisphere.error, from_sky.radiance[0].standard_error[0]);
@@ -90,7 +90,7 @@ TEST(Reciprocity, DhrOfWhatAbsorbsNothingIsOne) {
   scene.leaf = bilambertian("0.5", "0.5");
   scene.soil = lambertian("1");
   scene.sun = sun_at(35, 300);
-  scene.sampling = "samples = 1024\nroulette = false";
+  scene.sampling = "samples = 512\nroulette = false";
   const Mean all = dhr(folder, scene);
   EXPECT_LT(all.error, 0.01);
   EXPECT_LT(std::abs(all.value - 1), 4 * all.error) << all.value << " +- " << all.error;

@@ -12,7 +12,7 @@ SceneText coarse_canopy(const TemporaryFolder& folder) {
   scene.sun = sun_at(45, 60);
   scene.sky = white_sky;
   scene.sensor = views("[[10, 200], [55, 90]]");
-  scene.sampling = "samples = 131072";
+  scene.sampling = "samples = 65536";
   return scene;
 }
 

@@ -70,7 +70,7 @@ std::vector<Mean> disc_canopies(LeafAngles angles, double radius_m, int draws) {
     std::string list;
     for (const View& view : views_far_from_the_sun) list += fmt::format("[{}, {}], ", view.vza, view.vaa);
     scene.sensor = views(fmt::format("[{}[{}, {}]]", list, sza, saa));
-    scene.sampling = "samples = 16384\nmax_order = 1";
+    scene.sampling = "samples = 8192\nmax_order = 1";
     const SensorResult result = sensor_result(folder, scene);
     for (std::size_t view = 0; view <= n_views; ++view) brf[view].push_back(result.radiance[0].value[view]);
   }

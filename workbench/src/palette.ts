@@ -11,8 +11,10 @@ const qualitative = [
   "#7a5230", "#7fae42", "#d98bb4", "#5c4b9b", "#6b7785", "#55a6d9",
 ]; // prettier-ignore
 
+// Beyond the list its colours come again, paler.
 export function colour(i: number): string {
-  return qualitative[((i % qualitative.length) + qualitative.length) % qualitative.length] ?? ink;
+  const c = qualitative[((i % qualitative.length) + qualitative.length) % qualitative.length] ?? ink;
+  return Math.floor(i / qualitative.length) % 2 === 1 ? between([c, "#ffffff"], 0.45) : c;
 }
 
 export function alpha(hex: string, a: number): string {
