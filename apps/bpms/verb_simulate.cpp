@@ -23,7 +23,8 @@ struct SimulateArguments {
 // A picture beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
 std::string picture_path(const Cli& cli, const Simulation& simulation, std::size_t sensor) {
   std::filesystem::path path = cli.common.output;
-  path.replace_filename(path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor_identifier(simulation, sensor) : "") +
+  path.replace_filename(path.stem().string() +
+                        (simulation.sensors.size() > 1 ? "_" + sensor_identifier(simulation, sensor) : "") +
                         ".png");
   return path.string();
 }

@@ -46,6 +46,20 @@ TEST(ClosedForms, SunAndSkyAddUpOnABarePlane) {
   }
 }
 
+// The sky's light of the last order is gathered by a ray that goes on after it.
+TEST(ClosedForms, MaxOrderKeepsTheSkyOfItsLastOrder) {
+  const TemporaryFolder folder;
+  for (const int most : {1, 2}) {
+    SceneText scene = bare_plane(fmt::format("samples = 64\nmax_order = {}\nroulette = false", most));
+    scene.sun = sun_at(60, 0, "1000.0");
+    scene.sky = "{ type = \"isotropic\", irradiance = 200.0 }";
+    scene.sensor = views("[[0, 0]]");
+    const SensorResult result = sensor_result(folder, scene);
+    EXPECT_NEAR(part_of(result, Origin::direct).value[0], 0.3 / pi * 500.0, 1e-4);
+    EXPECT_NEAR(part_of(result, Origin::diffuse).value[0], 0.3 / pi * 200.0, 1e-4);
+  }
+}
+
 // A plane tilted by 30 degrees towards the east, lit from the east: L = (rho / pi) E cos(angle of incidence).
 TEST(ClosedForms, TiltedPlane) {
   const TemporaryFolder folder;

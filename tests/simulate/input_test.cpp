@@ -38,6 +38,7 @@ TEST(Input, WhatIsImpossibleIsRefusedWhereItStands) {
       {&SceneText::sun, sun_at(-1, 0), "sun.zenith_deg"},
       {&SceneText::leaf, bilambertian("0.7", "[[600, 0.2], [900, 0.4]]"), "band 2 (850 nm)"},
       {&SceneText::leaf, bilambertian("-0.1", "0.1"), "scene.toml:5:15"},
+      {&SceneText::leaf, lambertian("\"french.csv\""), "french.csv:1"},
       {&SceneText::leaf, lambertian("\"short.csv\""), "does not hold band 2 (850 nm)"},
       {&SceneText::leaf, "type = \"lambertain\"\nreflectance = 0.1", "lambertian"},
       {&SceneText::leaf, "type = \"lambertian\"\nreflectence = 0.1", "reflectance"},
@@ -49,6 +50,7 @@ TEST(Input, WhatIsImpossibleIsRefusedWhereItStands) {
       {&SceneText::sky, "{ type = \"isotropic\" }", "radiance and irradiance"},
   };
   const TemporaryFolder folder;
+  folder.write("french.csv", "400;0,05\n900;0,5\n");
   folder.write("short.csv", "nm,rho\n600,0.1\n700,0.2\n");
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);
