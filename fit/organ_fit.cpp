@@ -3,6 +3,7 @@
 #include <limits>
 #include <set>
 
+#include "core/interrupt.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/units.h"
@@ -189,6 +190,7 @@ std::vector<OrganFit> fit_organs(const std::vector<MeasuredOrgan>& organs, const
   std::vector<OrganFit> out(organs.size());
   Progress progress("fitting", organs.size());
   parallel_for(organs.size(), [&](std::size_t k) {
+    throw_if_interrupted();
     out[k] = fit_organ(organs[k], options);
     progress.add();
   });

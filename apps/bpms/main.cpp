@@ -1,7 +1,10 @@
 // The command line: a table of verbs, one error line, the exit code.
 #include <fmt/core.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "apps/bpms/verb.h"
@@ -35,6 +38,10 @@ int parse_and_run(Cli& cli, int argc, char** argv) {
     bpms::bad_input({}, "{} (see bpms {}--help)", error.what(),
                     argc > 1 && argv[1][0] != '-' ? std::string(argv[1]) + " " : "");
   }
+  // What was printed may still lie in a buffer; a full disk behind stdout must not pass for success.
+  if (std::fflush(stdout) != 0)
+    bpms::fail(bpms::ErrorKind::missing_resource, {}, "standard output cannot be written: {}",
+               std::strerror(errno));
   return 0;
 }
 
@@ -42,6 +49,7 @@ int parse_and_run(Cli& cli, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   bpms::catch_interrupts();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of the write, not the end
   Cli cli;
   cli.app.description("bpms: from measurements on plants to the radiance that a sensor would see");
   cli.app.name("bpms");

@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
+#include <set>
+
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -10,7 +13,7 @@
 namespace bpms {
 
 CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary, const std::string& example,
-                   std::function<void()> run) {
+                   std::function<void()> run, Output output) {
   CLI::App* verb = cli.app.add_subcommand(name, summary);
   CommonOptions& common = cli.common;
   verb->add_option("-o,--output", common.output, "output file");
@@ -21,12 +24,10 @@ CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary
   verb->add_flag("--json", common.json, "the report on stdout as one JSON object");
   verb->add_flag("--overwrite", common.overwrite, "replace existing outputs");
   verb->footer("Example:\n  " + example);
-  verb->callback([&cli, run = std::move(run)] {
+  verb->callback([&cli, output, run = std::move(run)] {
     set_quiet(cli.common.quiet);
     set_threads(cli.common.threads);
-    if (!cli.common.output.empty() && cli.common.output != "-")
-      require_writable(cli.common.output, cli.common.overwrite);
-    if (!cli.common.report.empty()) require_writable(cli.common.report, cli.common.overwrite);
+    if (output == Output::file) require_outputs(cli, {cli.common.output});
     run();
   });
   return verb;
@@ -37,6 +38,18 @@ Provenance provenance(const Cli& cli, bool with_seed) {
   out.command = cli.command;
   if (with_seed) out.seed = cli.common.seed;
   return out;
+}
+
+void require_outputs(const Cli& cli, const std::vector<std::string>& outputs) {
+  std::vector<std::string> all = outputs;
+  all.push_back(cli.common.report);
+  std::set<std::filesystem::path> taken;
+  for (const std::string& output : all) {
+    if (output.empty() || output == "-") continue;
+    require_writable(output, cli.common.overwrite);
+    if (!taken.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(output))).second)
+      bad_input({output}, "two outputs go to this one file");
+  }
 }
 
 const std::string& require_output(const Cli& cli) {

@@ -31,10 +31,12 @@ struct Cli {
   std::string command;  // as typed
 };
 
+enum class Output { file, file_or_folder };  // what -o may be; a folder is looked after by the verb itself
+
 // A subcommand with the common options; `example` is printed at the end of its help. `run` is called after
 // parsing.
 CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary, const std::string& example,
-                   std::function<void()> run);
+                   std::function<void()> run, Output output = Output::file);
 
 Provenance provenance(const Cli& cli, bool with_seed = false);
 
@@ -45,6 +47,9 @@ void deliver_report(const Cli& cli, const std::string& verb, Json report, const 
 
 // The page that holds these reports, self-contained (template built from workbench/).
 std::string html_page(const Json& document);
+
+// Before the work: each of these outputs can be written, and no two of them and --report are one file.
+void require_outputs(const Cli& cli, const std::vector<std::string>& outputs);
 
 // Missing -o is bad input.
 const std::string& require_output(const Cli& cli);

@@ -75,6 +75,7 @@ Json photographs_json(const Options& options, const Rig& rig, const Vectors& vec
 }
 
 void note_rejected(const Vectors& vectors, const std::string& file) {
+  for (const std::string& line : vectors.notes) note(fmt::format("{}: {}", file, line));
   for (const ReconstructedPoint& p : vectors.points) {
     if (p.accepted()) continue;
     const std::string chi2 =

@@ -19,22 +19,34 @@ struct Options {
   std::uint64_t samples = 0;
 };
 
-// OUT.png beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
+// Beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
+std::string quick_look_path(const Cli& cli, const Simulation& simulation, const Sensor& sensor) {
+  std::filesystem::path path = cli.common.output;
+  path.replace_filename(path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor.name : "") +
+                        ".png");
+  return path.string();
+}
+
 void write_quick_looks(const Cli& cli, const Simulation& simulation, const Result& result) {
   for (const SensorResult& sensor : result.sensors) {
-    if (!sensor.sensor->is_image()) continue;
-    std::filesystem::path path = cli.common.output;
-    const std::string stem =
-        path.stem().string() + (simulation.sensors.size() > 1 ? "_" + sensor.sensor->name : "");
-    path.replace_filename(stem + ".png");
-    write_file(path.string(), encode_png(quick_look(simulation, sensor)), cli.common.overwrite);
+    if (sensor.sensor->is_image())
+      write_file(quick_look_path(cli, simulation, *sensor.sensor), encode_png(quick_look(simulation, sensor)),
+                 cli.common.overwrite);
   }
+}
+
+std::vector<std::string> all_outputs(const Cli& cli, const Options& options, const Simulation& simulation) {
+  std::vector<std::string> out{cli.common.output, options.csv};
+  for (const auto& sensor : simulation.sensors) {
+    if (sensor->is_image()) out.push_back(quick_look_path(cli, simulation, *sensor));
+  }
+  return out;
 }
 
 void run(const Cli& cli, const Options& options) {
   const std::string& output = require_output(cli);
-  if (!options.csv.empty()) require_writable(options.csv, cli.common.overwrite);
   Simulation simulation = read_simulation(options.scene);
+  require_outputs(cli, all_outputs(cli, options, simulation));
   if (!options.target_se.empty()) set_target_se(simulation.sampling, options.target_se, {"--target-se"});
   if (options.samples > 0) {
     simulation.sampling.samples = options.samples;
