@@ -66,7 +66,7 @@ void expect_partial_result(const Edit& edit, const std::string& scene, int signa
         folder, {"simulate", scene, "-o", "new.nc", "--csv", "new.csv", "--report", "new.json", "--quiet"},
         seconds, signal_number);
     if (run.error.empty() && run.code == 128 + signal_number) {  // it came before the program's first line
-      EXPECT_EQ(content_of(folder), before);
+      EXPECT_TRUE(content_of(folder) == before);
       continue;
     }
     ASSERT_EQ(run.code, 130) << run.error;
@@ -104,7 +104,7 @@ void expect_nothing(const Edit& edit, const std::vector<std::string>& arguments)
   const Outcome run = run_and_interrupt(folder, arguments, 1.0);
   EXPECT_EQ(run.code, 130) << run.error;
   EXPECT_EQ(last_line(run.error), "error: interrupted; nothing was written");
-  EXPECT_EQ(content_of(folder), before);
+  EXPECT_TRUE(content_of(folder) == before);
 }
 
 TEST(Interrupt, AGapFractionLeavesNothing) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct Refusal {
   std::string begin;               // of the line, after "error: "
   std::vector<std::string> holds;  // what else stands in it
 };
+
+inline void PrintTo(const Refusal& row, std::ostream* out) {
+  *out << "bpms " << row.arguments;
+}
 
 class Refused : public ::testing::TestWithParam<Refusal> {};
 
