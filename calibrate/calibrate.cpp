@@ -31,7 +31,12 @@ std::vector<std::string> frame_names(const Observations& observations) {
 
 void require_views(const Observations& observations) {
   constexpr int fewest = 3;
-  if (observations.cameras.empty()) bad_input({}, "no usable view of the target");
+  if (observations.views.empty()) {
+    const auto& skipped = observations.skipped;
+    if (skipped.empty()) bad_input({}, "no usable view of the target");
+    bad_input({}, "no usable view of the target among {} images; the first, {}: {}", skipped.size(),
+              skipped.front().image, skipped.front().reason);
+  }
   for (std::size_t c = 0; c < observations.cameras.size(); ++c) {
     const auto views =
         std::count_if(observations.views.begin(), observations.views.end(),

@@ -28,6 +28,15 @@ int camera_index(Observations& out, const std::string& name, int width_px, int h
   return static_cast<int>(out.cameras.size()) - 1;
 }
 
+// The name of an image that stands in a table.
+ImageName image_name(const std::string& image, const SourceLocation& where) {
+  try {
+    return parse_image_name(image);
+  } catch (const Error& error) {
+    bad_input(where, "{}: {}", in_quotes(image), error.message());
+  }
+}
+
 }  // namespace
 
 ImageName parse_image_name(const std::string& path) {
@@ -65,7 +74,7 @@ Observations read_corners(const std::string& path, int width_px, int height_px, 
       check_whole(reader.where(*token));
       if (!view_of_image.emplace(image, out.views.size()).second)
         bad_input(reader.where(*token), "corners of {} appear in two places", in_quotes(image));
-      const ImageName name = parse_image_name(image);
+      const ImageName name = image_name(image, reader.where(*token));
       BoardView view{image, camera_index(out, name.camera, width_px, height_px), name.frame, {}};
       const auto [twin, fresh] = image_of_frame.emplace(std::pair(view.camera, view.frame), image);
       if (!fresh)
@@ -99,6 +108,7 @@ Observations read_corners(const std::string& path, int width_px, int height_px, 
     out.views.back().corners.push_back(corner);
   }
   check_whole(reader.here());
+  if (out.views.empty()) bad_input({path}, "no corners, expected rows of filename x y level");
   for (std::size_t i = out.views.size(); i-- > 0;) {
     if (!out.views[i].corners.empty()) continue;
     out.skipped.push_back({out.views[i].image, "no corners"});

@@ -8,6 +8,7 @@ namespace bpms {
 namespace {
 
 constexpr int fewest_corners = 3, most_corners = 200;  // in a row; OpenCV finds none below 3
+constexpr double largest_square_m = 100;
 
 }  // namespace
 
@@ -56,6 +57,7 @@ Target parse_target(const std::string& text) {
   target.rows = static_cast<int>(*rows);
   target.square_m = parse_length(rest.substr(colon + 1), {"--target"});
   if (!(target.square_m > 0)) expected("the square has no size");
+  if (target.square_m > largest_square_m) expected("the square is larger than 100 m");
   return target;
 }
 
@@ -68,7 +70,9 @@ Target read_board(const std::string& path) {
   if (target.kind != "chessboard") root.get("kind").reject("this version detects chessboards only");
   target.columns = static_cast<int>(root.require("columns").integer(fewest_corners, most_corners));
   target.rows = static_cast<int>(root.require("rows").integer(fewest_corners, most_corners));
-  target.square_m = root.require("square_m").positive();
+  const TomlValue square = root.require("square_m");
+  target.square_m = square.positive();
+  if (target.square_m > largest_square_m) square.reject("expected a square of at most 100 m");
   document.finish();
   return target;
 }

@@ -13,6 +13,12 @@ namespace fs = std::filesystem;
 
 namespace bpms {
 
+namespace {
+std::string temporary_name(const std::string& path) {
+  return fmt::format("{}.{}.part", path, ::getpid());
+}
+}  // namespace
+
 void require_writable(const std::string& path, bool overwrite) {
   std::error_code code;
   if (path.empty()) throw Error(ErrorKind::bad_input, "an output file name is empty");
@@ -22,13 +28,18 @@ void require_writable(const std::string& path, bool overwrite) {
     fail(ErrorKind::bad_input, {path}, "exists already; give --overwrite to replace it");
   const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
   if (!fs::is_directory(folder, code)) fail(ErrorKind::missing_resource, {path}, "its folder does not exist");
-  if (::access(folder.c_str(), W_OK) != 0)
+  // Tried, not asked: root may write everywhere by its rights, but not to /proc or a read-only disk.
+  const std::string trial = temporary_name(path);
+  const int file = ::open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0644);
+  if (file < 0)
     fail(ErrorKind::missing_resource, {path}, "its folder is not writable: {}", std::strerror(errno));
+  ::close(file);
+  ::unlink(trial.c_str());
 }
 
 AtomicFile::AtomicFile(std::string path, bool overwrite) : path_(std::move(path)), overwrite_(overwrite) {
   require_writable(path_, overwrite_);
-  temporary_ = fmt::format("{}.{}.part", path_, ::getpid());
+  temporary_ = temporary_name(path_);
   const int file = ::open(temporary_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
   if (file < 0) fail(ErrorKind::missing_resource, {path_}, "cannot be written: {}", std::strerror(errno));
   ::close(file);

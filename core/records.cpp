@@ -64,7 +64,8 @@ std::vector<ImagePoint> read_image_points(const std::string& path) {
     point.sigma_px = table.number(row, sigma);
     point.where = table.where(row, labels.point);
     if (point.camera.empty()) bad_input(table.where(row, camera), "the camera has no name");
-    if (point.sigma_px <= 0)
+    constexpr double finest_px = 1e-9;  // finer ones leave nothing of a covariance in doubles
+    if (point.sigma_px < finest_px)
       bad_input(table.where(row, sigma), "found {}, expected a sigma above 0 px", point.sigma_px);
     if (!seen.emplace(point.label, point.point, point.view, point.camera).second)
       bad_input(point.where, "{} point {} stands twice for view '{}', camera '{}'", point.label.str(),

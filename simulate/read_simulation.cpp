@@ -16,8 +16,10 @@ Sampling read_sampling(const TomlValue& table) {
   Sampling out;
   const TomlValue target = table.get("target_se");
   const TomlValue samples = table.get("samples");
+  for (const char* other : {"max_samples", "max_seconds", "max_order", "orders", "roulette", "share_paths"})
+    table.get(other);
   if (static_cast<bool>(target) == static_cast<bool>(samples))
-    table.reject("expected one of target_se and samples");
+    table.reject_choice("expected one of target_se and samples");
   if (target)
     set_target_se(out, target.is_string() ? target.string() : fmt::format("{}", target.number()),
                   target.where());
@@ -61,7 +63,11 @@ void set_target_se(Sampling& sampling, const std::string& text, const SourceLoca
 }
 
 Simulation read_simulation(const std::string& path) {
-  const TomlDocument document = TomlDocument::read(path);
+  return parse_simulation(path, read_text(path));
+}
+
+Simulation parse_simulation(const std::string& path, std::string_view text) {
+  const TomlDocument document = TomlDocument::parse(path, text);
   const TomlValue root = document.root();
   Simulation out;
   out.scene = read_scene_geometry(document);

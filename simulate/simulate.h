@@ -38,6 +38,8 @@ struct Simulation {
   std::vector<std::string> inputs;
 };
 Simulation read_simulation(const std::string& path);
+// The same from the text; `path` stands in messages, and the files it names lie relative to its folder.
+Simulation parse_simulation(const std::string& path, std::string_view text);
 
 enum class Origin { total, direct, diffuse };  // which source a photon came from
 enum class Component {

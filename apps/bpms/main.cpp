@@ -1,5 +1,8 @@
 // The command line: a table of verbs, one error line, the exit code.
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "apps/bpms/verb.h"
@@ -33,6 +36,10 @@ int parse_and_run(Cli& cli, int argc, char** argv) {
     bpms::bad_input({}, "{} (see bpms {}--help)", error.what(),
                     argc > 1 && argv[1][0] != '-' ? std::string(argv[1]) + " " : "");
   }
+  // What was printed may still lie in a buffer; a full disk behind stdout must not pass for success.
+  if (std::fflush(stdout) != 0)
+    bpms::fail(bpms::ErrorKind::missing_resource, {}, "standard output cannot be written: {}",
+               std::strerror(errno));
   return 0;
 }
 
@@ -46,6 +53,7 @@ int report_error(bpms::ErrorKind kind, const std::string& message) {
 
 int main(int argc, char** argv) {
   bpms::catch_interrupts();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of the write, not the end
   Cli cli;
   cli.app.description("bpms: from measurements on plants to the radiance that a sensor would see");
   cli.app.name("bpms");
@@ -54,10 +62,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) cli.command += (i ? " " : "") + std::string(i ? argv[i] : "bpms");
   try {
     for (const auto add : verbs) add(cli);
-    const int code = parse_and_run(cli, argc, argv);
-    if (std::fflush(stdout) != 0)
-      bpms::fail(bpms::ErrorKind::missing_resource, {}, "stdout cannot be written");
-    return code;
+    return parse_and_run(cli, argc, argv);
   } catch (const bpms::Error& error) {
     return report_error(error.kind(), error.what());
   } catch (const std::bad_alloc&) {

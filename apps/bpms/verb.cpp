@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <set>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -31,10 +32,8 @@ CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary
   verb->callback([&cli, output, run = std::move(run)] {
     set_quiet(cli.common.quiet);
     set_threads(cli.common.threads);
-    const std::string& path = cli.common.output;
-    const bool own_business = output == OutputKind::file_or_folder && names_folder(path);
-    if (!path.empty() && path != "-" && !own_business) require_writable(path, cli.common.overwrite);
-    if (!cli.common.report.empty()) require_writable(cli.common.report, cli.common.overwrite);
+    const bool own_business = output == OutputKind::file_or_folder && names_folder(cli.common.output);
+    require_outputs(cli, own_business ? std::vector<std::string>{} : std::vector{cli.common.output});
     run();
   });
   return verb;
@@ -45,6 +44,18 @@ Provenance provenance(const Cli& cli, bool with_seed) {
   out.command = cli.command;
   if (with_seed) out.seed = cli.common.seed;
   return out;
+}
+
+void require_outputs(const Cli& cli, const std::vector<std::string>& outputs) {
+  std::vector<std::string> all = outputs;
+  all.push_back(cli.common.report);
+  std::set<std::filesystem::path> taken;
+  for (const std::string& output : all) {
+    if (output.empty() || output == "-") continue;
+    require_writable(output, cli.common.overwrite);
+    if (!taken.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(output))).second)
+      bad_input({output}, "two outputs go to this one file");
+  }
 }
 
 const std::string& require_output(const Cli& cli) {

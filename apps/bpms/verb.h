@@ -50,6 +50,9 @@ void deliver_report(const Cli& cli, const std::string& verb, Json report, const 
 // The page that holds these reports, self-contained (template built from workbench/).
 std::string html_page(const Json& document);
 
+// Before the work: each of these outputs can be written, and no two of them and --report are one file.
+void require_outputs(const Cli& cli, const std::vector<std::string>& outputs);
+
 // Missing -o is bad input, and so is -o -: these outputs are files.
 const std::string& require_output(const Cli& cli);
 

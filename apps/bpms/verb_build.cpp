@@ -78,11 +78,9 @@ void run(const Cli& cli, const BuildArguments& options) {
   const double tolerance = tolerance_m(options.tolerance);
   std::vector<std::string> files;
   for (const std::string& output : outputs) {
-    for (const std::string& path : mesh_file_paths(output)) {
-      require_writable(path, cli.common.overwrite);
-      files.push_back(path);
-    }
+    for (const std::string& path : mesh_file_paths(output)) files.push_back(path);
   }
+  require_outputs(cli, files);
   Provenance made_from = provenance(cli);
   made_from.add_input(options.plant);
   const Plant plant = read_plant(options.plant, {options.lenient});

@@ -58,7 +58,8 @@ const std::vector<FileKind>& kinds() {
        check_plant},
       {"canopy.toml",
        [](const std::string& path, std::string_view head) {
-         return path.ends_with(".toml") && head.find("[planting]") != std::string_view::npos;
+         return path.ends_with(".toml") && (head.find("[planting]") != std::string_view::npos ||
+                                            head.find("[[plants]]") != std::string_view::npos);
        },
        check_canopy},
       {"rig.toml",

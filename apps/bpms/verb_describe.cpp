@@ -22,7 +22,7 @@ struct DescribeArguments {
 Scene read_structure(const std::string& path) {
   if (path.ends_with(".bpms")) return plant_scene(path);
   const TomlDocument document = TomlDocument::read(path);
-  if (document.root().has("planting")) return canopy_scene(path);
+  if (document.root().has("planting") || document.root().has("plants")) return canopy_scene(path);
   Scene scene = read_scene_geometry(document);
   if (scene.instances.empty())
     bad_input({path}, "no plants and no [[instances]]: there is no structure to describe");

@@ -63,24 +63,48 @@ std::string file_stem(const std::string& name) {
   return out.empty() ? "plant" : out;
 }
 
-void write_plants(const std::string& output, bool overwrite, bool to_folder,
-                  const std::vector<FittedPlant>& plants) {
-  if (!to_folder) {
-    write_file(output, plant_text(plants[0].plant), overwrite);
-    return;
-  }
-  std::error_code code;
-  std::filesystem::create_directories(output, code);
-  if (code)
-    throw Error(ErrorKind::missing_resource, {output}, "the folder cannot be made: " + code.message());
+// Where each plant goes: one to the output itself, unless that names a folder; several to files in the
+// folder.
+std::map<std::string, std::string> plant_files(const std::string& output,
+                                               const std::vector<std::string>& names) {
+  std::map<std::string, std::string> out;
+  if (names.size() == 1 && !names_folder(output)) return {{names[0], output}};
+  if (output.ends_with(".bpms"))
+    bad_input({}, "the input holds {} plants: give a folder, -o plants/", names.size());
   std::set<std::string> used;
-  for (const FittedPlant& plant : plants) {
-    std::string stem = file_stem(plant.plant.name);
-    for (int k = 2; !used.insert(stem).second; ++k)
-      stem = fmt::format("{}_{}", file_stem(plant.plant.name), k);
-    write_file((std::filesystem::path(output) / (stem + ".bpms")).string(), plant_text(plant.plant),
-               overwrite);
+  for (const std::string& name : names) {
+    std::string stem = file_stem(name);
+    for (int k = 2; !used.insert(stem).second; ++k) stem = fmt::format("{}_{}", file_stem(name), k);
+    out[name] = (std::filesystem::path(output) / (stem + ".bpms")).string();
   }
+  return out;
+}
+
+// Refused before the fitting; a folder that is there already may hold other files.
+void require_plant_files(const Cli& cli, const std::map<std::string, std::string>& files) {
+  const std::filesystem::path output = cli.common.output;
+  if (files.begin()->second == cli.common.output || std::filesystem::is_directory(output)) {
+    std::vector<std::string> paths;
+    for (const auto& [name, path] : files) paths.push_back(path);
+    require_outputs(cli, paths);
+  } else {  // the folder will be made
+    const std::string folder = output.has_filename() ? output.string() : output.parent_path().string();
+    require_writable(folder, false);
+    require_outputs(cli, {});
+  }
+}
+
+void write_plants(const Cli& cli, const std::map<std::string, std::string>& files,
+                  const std::vector<FittedPlant>& plants) {
+  const std::string& output = cli.common.output;
+  if (files.begin()->second != output) {
+    std::error_code code;
+    std::filesystem::create_directories(output, code);
+    if (code)
+      throw Error(ErrorKind::missing_resource, {output}, "the folder cannot be made: " + code.message());
+  }
+  for (const FittedPlant& plant : plants)
+    write_file(files.at(plant.plant.name), plant_text(plant.plant), cli.common.overwrite);
 }
 
 void run(const Cli& cli, const FitArguments& arguments) {
@@ -92,7 +116,11 @@ void run(const Cli& cli, const FitArguments& arguments) {
   if (arguments.bases != "common" && arguments.bases != "measured")
     bad_input({}, "found --bases {}, expected common or measured", in_quotes(arguments.bases));
   assembly.measured_bases = arguments.bases == "measured";
-  if (!arguments.width.empty()) assembly.width_m = parse_length(arguments.width, {});
+  if (!arguments.width.empty()) {
+    assembly.width_m = parse_length(arguments.width, {});
+    if (!(assembly.width_m > 0))
+      bad_input({}, "--width {}: expected a length above 0", in_quotes(arguments.width));
+  }
   const Measured measured = read_organs(arguments);
   const std::vector<MeasuredOrgan>& organs = measured.organs;
 
@@ -102,8 +130,8 @@ void run(const Cli& cli, const FitArguments& arguments) {
     if (!members.contains(organs[k].plant)) names.push_back(organs[k].plant);
     members[organs[k].plant].push_back(k);
   }
-  if (names.size() > 1 && output.ends_with(".bpms"))
-    bad_input({}, "the input holds {} plants: give a folder, -o plants/", names.size());
+  const std::map<std::string, std::string> files = plant_files(output, names);
+  require_plant_files(cli, files);
 
   const std::vector<OrganFit> fits = fit_organs(organs, options);
   for (const OrganFit& fit : fits) {
@@ -127,7 +155,7 @@ void run(const Cli& cli, const FitArguments& arguments) {
   if (plants.empty())
     bad_input({arguments.input}, "none of the {} organs could be fitted; the first, {}: {}", fits.size(),
               fits[0].measured.str(), fits[0].failure);
-  write_plants(output, cli.common.overwrite, names.size() > 1 || names_folder(output), plants);
+  write_plants(cli, files, plants);
   if (cli.common.json || !cli.common.report.empty()) {
     Json report = fit_report(fits, plants);
     report["input"] = arguments.input;

@@ -76,6 +76,7 @@ Json photographs_json(const ReconstructArguments& options, const Rig& rig, const
 }
 
 void note_rejected(const Vectors& vectors, const std::string& file) {
+  for (const std::string& line : vectors.notes) note(fmt::format("{}: {}", file, line));
   for (const ReconstructedPoint& p : vectors.points) {
     if (p.accepted()) continue;
     const std::string chi2 =

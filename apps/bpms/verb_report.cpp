@@ -17,16 +17,30 @@ struct ReportArguments {
   std::vector<std::string> notes;
 };
 
+// Of the byte at which reading stopped; the parser counts bytes from 1.
+SourceLocation place_of(const std::string& path, const std::string& text, std::size_t byte) {
+  const std::string_view before = std::string_view(text).substr(0, byte > 0 ? byte - 1 : 0);
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
+  return {path, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+          1 + static_cast<int>(before.size() - line_begin)};
+}
+
 Json read_report(const std::string& path) {
   const std::string text = read_text(path);
+  constexpr int deepest = 100;  // what writes the page recurses over brackets
+  const auto within_depth = [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth > deepest) bad_input({path}, "brackets nested deeper than {}, no report is", deepest);
+    return true;
+  };
   try {
-    Json report = Json::parse(text);
-    if (!report.is_object() || !report.contains("report"))
-      bad_input({path}, "not a report: an object with the key \"report\" was expected");
+    Json report = Json::parse(text, within_depth);
+    if (!report.is_object() || !report.contains("report") || !report["report"].is_string())
+      bad_input({path}, "not a report: an object with the key \"report\" and a verb's name was expected");
     return report;
   } catch (const Json::parse_error& error) {
-    const auto until = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    bad_input({path, 1 + static_cast<int>(std::count(text.begin(), until, '\n'))}, "not valid JSON");
+    bad_input(place_of(path, text, error.byte), "not valid JSON");
+  } catch (const Json::out_of_range&) {
+    bad_input({path}, "a number beyond the range of doubles");
   }
 }
 

@@ -37,13 +37,18 @@ void write_quick_looks(const Cli& cli, const Simulation& simulation, const Resul
   }
 }
 
+std::vector<std::string> all_outputs(const Cli& cli, const SimulateArguments& options,
+                                     const Simulation& simulation) {
+  std::vector<std::string> out{cli.common.output, options.csv};
+  for (std::size_t i = 0; i < simulation.sensors.size(); ++i)
+    if (simulation.sensors[i]->is_image()) out.push_back(picture_path(cli, simulation, i));
+  return out;
+}
+
 void run(const Cli& cli, const SimulateArguments& options) {
   const std::string& output = require_output(cli);
-  if (!options.csv.empty()) require_writable(options.csv, cli.common.overwrite);
   Simulation simulation = read_simulation(options.scene);
-  for (std::size_t i = 0; i < simulation.sensors.size(); ++i)
-    if (simulation.sensors[i]->is_image())
-      require_writable(picture_path(cli, simulation, i), cli.common.overwrite);
+  require_outputs(cli, all_outputs(cli, options, simulation));
   if (!options.target_se.empty()) set_target_se(simulation.sampling, options.target_se, {"--target-se"});
   if (options.samples > 0) {
     simulation.sampling.samples = options.samples;

@@ -90,8 +90,8 @@ Canopy read_canopy(const std::string& path, std::optional<std::uint64_t> seed) {
 
   const TomlValue planting = root.require("planting");
   PlantingField field{canopy.size_m, canopy.periodic, Philox(canopy.seed, pattern_stream), {}, {}};
-  const std::vector<PlantingSite> sites = find_pattern(planting.require("pattern"))(planting, field);
   const TomlValue depth_key = planting.get("depth_m");
+  const std::vector<PlantingSite> sites = find_pattern(planting.require("pattern"))(planting, field);
   const MeanSd depth = depth_key ? mean_sd(depth_key) : MeanSd{};
   document.finish();
 

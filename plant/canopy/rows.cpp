@@ -94,7 +94,7 @@ std::vector<PlantingSite> plant_rows(const TomlValue& planting, PlantingField& f
   const TomlValue in_row_key = planting.get("spacing_in_row_m");
   const TomlValue density_key = planting.get("density_per_m2");
   if (static_cast<bool>(in_row_key) == static_cast<bool>(density_key))
-    planting.reject("expected one of density_per_m2 and spacing_in_row_m");
+    planting.reject_choice("expected one of density_per_m2 and spacing_in_row_m");
   MeanSd in_row;
   if (in_row_key)
     in_row = positive_mean_sd(in_row_key);

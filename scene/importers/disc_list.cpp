@@ -24,7 +24,9 @@ std::vector<Disc> read_disc_list(const std::string& path) {
         bad_input(reader.where(*token), "found {}, expected {} (a number below 1e7)", in_quotes(token->text),
                   names[k]);
       row[k] = *value;
-      if (k == 0 && row[0] <= 0) bad_input(reader.where(*token), "radius {}, expected one above 0", row[0]);
+      constexpr double smallest = 1e-9;  // metres; what is not far from zero in floats
+      if (k == 0 && row[0] < smallest)
+        bad_input(reader.where(*token), "radius {}, expected one above 0", row[0]);
     }
     if (const auto more = reader.peek(); more && more->line == first->line)
       bad_input(reader.where(*more), "more than 7 columns, expected radius x y z nx ny nz");

@@ -14,6 +14,8 @@
 namespace bpms {
 namespace {
 
+constexpr float largest_m = 1e7F;
+
 bool says_leaf(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   return name.find("leaf") != std::string::npos;
@@ -57,6 +59,7 @@ class Reader {
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const Eigen::Vector3f p = turned(transform * part.mVertices[v]) * static_cast<float>(unit_);
       if (!p.allFinite()) bad_input({path_}, "vertex {} is not finite", v);
+      if (p.cwiseAbs().maxCoeff() > largest_m) bad_input({path_}, "vertex {} lies beyond 1e7 m", v);
       mesh_.positions_m.push_back(p);
       if (normals_) mesh_.normals.push_back(turned(rotation * part.mNormals[v]).normalized());
       if (uv_) mesh_.uv.emplace_back(part.mTextureCoords[0][v].x, part.mTextureCoords[0][v].y);

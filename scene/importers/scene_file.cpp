@@ -58,9 +58,16 @@ class SceneReader {
     if (const TomlValue azimuth = domain.get("azimuth_convention"))
       out.azimuth_north_clockwise =
           azimuth.one_of({"north_clockwise", "east_counterclockwise"}) == "north_clockwise";
-    if (out.periodic && !(out.size_m.minCoeff() > 0))
-      bad_input(domain.where(),
-                "a periodic domain needs its size: [domain] size_m = [x, y], or boundary = \"open\"");
+    if (out.periodic && !(out.size_m.minCoeff() > 0)) no_size(domain);
+  }
+
+  // A misspelt `canopy` or `domain` is the likelier mistake.
+  [[noreturn]] void no_size(const TomlValue& domain) const {
+    for (const char* key :
+         {"ground", "prototypes", "instances", "illumination", "sensors", "bands", "sampling"})
+      root_.get(key);
+    (domain ? domain : root_)
+        .reject_choice("a periodic domain needs its size: [domain] size_m = [x, y], or boundary = \"open\"");
   }
 
   void read_ground(const TomlValue& ground) {
@@ -110,7 +117,11 @@ class SceneReader {
     const TomlValue which = table.require("prototype");
     Instance instance;
     instance.prototype = prototype_number(which);
-    if (const TomlValue scale = table.get("scale")) instance.scale = scale.positive();
+    if (const TomlValue scale = table.get("scale")) {
+      constexpr double largest_scale = 1e6;
+      instance.scale = scale.positive();
+      if (instance.scale > largest_scale) scale.reject("expected a factor up to 1e6");
+    }
     const double turn = radians(table.number_or("rotation_deg", 0));
     const TomlValue positions = table.require("positions");
     const auto place = [&](const std::vector<double>& row) {

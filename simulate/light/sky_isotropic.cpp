@@ -8,7 +8,7 @@ Sky read_isotropic_sky(const TomlValue& table, const Bands& bands, std::vector<s
   const TomlValue radiance = table.get("radiance");
   const TomlValue irradiance = table.get("irradiance");
   if (static_cast<bool>(radiance) == static_cast<bool>(irradiance))
-    table.reject("expected one of radiance and irradiance (on the horizontal, or \"brf\")");
+    table.reject_choice("expected one of radiance and irradiance (on the horizontal, or \"brf\")");
   if (radiance) {
     out.radiance = read_spectrum(radiance, bands, 0.0, brightest, inputs);
   } else if (irradiance.is_string() && irradiance.string() == "brf") {

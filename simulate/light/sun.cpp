@@ -8,7 +8,9 @@ namespace bpms {
 Sun read_sun(const TomlValue& table, const Domain& domain, const Bands& bands,
              std::vector<std::string>& inputs) {
   Sun out;
-  const TomlValue zenith = table.require("zenith_deg");
+  for (const char* key : {"azimuth_deg", "irradiance"}) table.get(key);
+  const TomlValue zenith = table.get("zenith_deg");
+  if (!zenith) table.reject_choice("missing key 'zenith_deg'");
   out.zenith_deg = zenith.number();
   if (!(out.zenith_deg >= 0.0 && out.zenith_deg < 90.0))
     zenith.reject(fmt::format("sun.zenith_deg is {}: expected 0 <= zenith < 90, a sun above the horizon",

@@ -6,8 +6,8 @@ namespace bpms {
 
 Material read_bilambertian(const TomlValue& table, const Bands& bands, std::vector<std::string>& inputs) {
   Material out;
-  out.reflectance[0] = read_spectrum(table.require("reflectance"), bands, 0.0, 1.0, inputs);
   const TomlValue back = table.get("reflectance_back");
+  out.reflectance[0] = read_spectrum(table.require("reflectance"), bands, 0.0, 1.0, inputs);
   out.reflectance[1] = back ? read_spectrum(back, bands, 0.0, 1.0, inputs) : out.reflectance[0];
   out.transmittance = read_spectrum(table.require("transmittance"), bands, 0.0, 1.0, inputs);
   out.opaque = false;

@@ -1,15 +1,21 @@
 #include "simulate/output/netcdf.h"
 
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
+#include <cstdlib>
 #include <limits>
+#include <memory>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 
 namespace bpms {
 
-NetcdfWriter::NetcdfWriter(const std::string& path, bool overwrite) : path_(path), file_(path, overwrite) {
-  check(nc_create(file_.temporary().c_str(), NC_NETCDF4 | NC_CLOBBER, &id_), "creating it");
+// HDF5 does not survive a write that fails (it crashes when the program ends), so that the file grows in
+// memory.
+NetcdfWriter::NetcdfWriter(const std::string& path, bool overwrite) : path_(path), overwrite_(overwrite) {
+  check(nc_create_mem(path.c_str(), NC_NETCDF4, 0, &id_), "creating it");
 }
 
 NetcdfWriter::~NetcdfWriter() {
@@ -78,8 +84,10 @@ void NetcdfWriter::words(const std::string& name, const std::string& dimension,
 void NetcdfWriter::commit() {
   const int id = id_;
   id_ = -1;
-  check(nc_close(id), "closing it");
-  file_.commit();
+  NC_memio content{};
+  check(nc_close_memio(id, &content), "closing it");
+  const std::unique_ptr<void, void (*)(void*)> owner(content.memory, &std::free);
+  write_file(path_, {static_cast<const char*>(content.memory), content.size}, overwrite_);
 }
 
 }  // namespace bpms

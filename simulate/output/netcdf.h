@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/atomic_file.h"
-
 namespace bpms {
 
 using NetcdfAttributes = std::vector<std::pair<std::string, std::string>>;
@@ -40,7 +38,7 @@ class NetcdfWriter {
              const NetcdfAttributes& attributes);
   void check(int status, const std::string& doing) const;
   std::string path_;
-  AtomicFile file_;
+  bool overwrite_;
   int id_ = -1;
 };
 

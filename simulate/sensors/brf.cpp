@@ -66,8 +66,9 @@ std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const Domain& do
   const TomlValue plane = table.get("plane");
   const TomlValue views = table.get("views");
   const TomlValue zeniths = table.get("vza_deg");
+  const TomlValue height = table.get("reference_height");
   if (static_cast<bool>(plane) == static_cast<bool>(views))
-    table.reject("expected one of plane = \"principal\" | \"cross\" and views = [[vza, vaa], ...]");
+    table.reject_choice("expected one of plane = \"principal\" | \"cross\" and views = [[vza, vaa], ...]");
   if (plane) {
     const std::string name = plane.one_of({"principal", "cross"});
     if (!light.sun)
@@ -83,7 +84,7 @@ std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const Domain& do
     }
     if (out->list.empty()) views.reject("expected at least one [vza, vaa]");
   }
-  if (const TomlValue height = table.get("reference_height")) {
+  if (height) {
     if (domain.periodic) height.reject("a periodic domain has no reference height: every one sees the same");
     if (height.is_string()) {
       const std::string name = height.one_of({"top", "ground"});

@@ -50,16 +50,22 @@ std::unique_ptr<Sensor> read_perspective_sensor(const TomlValue& table, const Do
   auto out = std::make_unique<PerspectiveSensor>();
   constexpr double shortest = 1e-9;
   constexpr int largest = 20000;
-  out->location = vector_of(table.require("location"));
+  constexpr double farthest_m = 1e7;  // beyond, floats have no place for a plant
+  const TomlValue location = table.require("location");
+  out->location = vector_of(location);
+  if (out->location.cwiseAbs().maxCoeff() > farthest_m) location.reject("expected a point within 1e7 m");
   const TomlValue look_at = table.get("look_at");
   const TomlValue direction = table.get("direction");
+  const TomlValue up_key = table.get("up");
+  const TomlValue zoom = table.get("zoom");
+  const TomlValue field = table.get("fov_deg");
+  const TomlValue columns = table.require("width_px"), rows = table.require("height_px");
   if (static_cast<bool>(look_at) == static_cast<bool>(direction))
-    table.reject("expected one of look_at and direction");
+    table.reject_choice("expected one of look_at and direction");
   const Eigen::Vector3d look =
       look_at ? Eigen::Vector3d(vector_of(look_at) - out->location) : vector_of(direction);
   if (look.norm() < shortest) (look_at ? look_at : direction).reject("expected a point away from the camera");
   out->look = look.normalized();
-  const TomlValue up_key = table.get("up");
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   if (up_key)
     up = vector_of(up_key);
@@ -70,12 +76,11 @@ std::unique_ptr<Sensor> read_perspective_sensor(const TomlValue& table, const Do
     up_key.reject("up is parallel to the line of sight");
   out->right = right.normalized();
   out->down = out->look.cross(out->right);
-  const TomlValue zoom = table.get("zoom");
-  const TomlValue field = table.get("fov_deg");
-  if (static_cast<bool>(zoom) == static_cast<bool>(field)) table.reject("expected one of zoom and fov_deg");
+  if (static_cast<bool>(zoom) == static_cast<bool>(field))
+    table.reject_choice("expected one of zoom and fov_deg");
   out->semi_height = zoom ? 1.0 / zoom.positive() : std::tan(0.5 * radians(field.number(0.001, 179.0)));
-  out->columns = static_cast<int>(table.require("width_px").integer(1, largest));
-  out->rows = static_cast<int>(table.require("height_px").integer(1, largest));
+  out->columns = static_cast<int>(columns.integer(1, largest));
+  out->rows = static_cast<int>(rows.integer(1, largest));
   return out;
 }
 

@@ -5,66 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
-#include "core/units.h"
+#include "tests/calibrate/rendered_board.h"
 #include "tests/data.h"
 
 namespace bpms {
 namespace {
 
-constexpr double focal_px = 500;
-constexpr int width = 640, height = 480;
-
-struct View {
-  Eigen::Matrix3d r;
-  Eigen::Vector3d t_m;
-};
-View look_at(const Target& target, double roll_deg, double tilt_deg) {
-  const Eigen::Matrix3d r = (Eigen::AngleAxisd(radians(tilt_deg), Eigen::Vector3d(1, 0.4, 0).normalized()) *
-                             Eigen::AngleAxisd(radians(roll_deg), Eigen::Vector3d::UnitZ()))
-                                .toRotationMatrix();
-  const Eigen::Vector3d middle((target.columns - 1) * target.square_m / 2,
-                               (target.rows - 1) * target.square_m / 2, 0);
-  return {r, Eigen::Vector3d(0.011, -0.007, 0.42) - r * middle};
-}
-Eigen::Vector2d pixel(const View& view, const Eigen::Vector3d& x) {
-  const Eigen::Vector3d c = view.r * x + view.t_m;
-  return focal_px * c.head<2>() / c.z() + Eigen::Vector2d(320.3, 239.6);
-}
-
-// Pixel centres are integers: the samples of a pixel fill -1/2 .. 1/2 about it, on a lattice that has as many
-// steps along each axis as it has points.
-cv::Mat render(const Target& target, const View& view) {
-  Eigen::Matrix3d k, plane;
-  k << focal_px, 0, 320.3, 0, focal_px, 239.6, 0, 0, 1;
-  plane << view.r.col(0), view.r.col(1), view.t_m;
-  const Eigen::Matrix3d from_image = (k * plane).inverse();
-  constexpr int samples = 34, stride = 21;  // Fibonacci lattice
-  cv::Mat image(height, width, CV_32F);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      double sum = 0;
-      for (int i = 0; i < samples; ++i) {
-        const Eigen::Vector3d q(u + (i + 0.5) / samples - 0.5,
-                                v + (i * stride % samples + 0.5) / samples - 0.5, 1);
-        const Eigen::Vector2d x = (from_image * q).hnormalized() / target.square_m;
-        const int column = static_cast<int>(std::floor(x.x())), row = static_cast<int>(std::floor(x.y()));
-        const bool inside = column >= -1 && row >= -1 && column < target.columns && row < target.rows;
-        sum += inside && (column + row) % 2 == 0 ? 30 : 220;
-      }
-      image.at<float>(v, u) = static_cast<float>(sum / samples);
-    }
-  }
-  cv::Mat blurred, out;
-  cv::GaussianBlur(image, blurred, cv::Size(7, 7), 0.7);
-  blurred.convertTo(out, CV_8U);
-  return out;
-}
+using test::look_at, test::render;
 
 Target make_target(int columns, int rows) {
   Target target;
@@ -75,13 +24,13 @@ Target make_target(int columns, int rows) {
 class Rendered : public ::testing::TestWithParam<double> {};
 TEST_P(Rendered, CornersAreWhereTheyWereDrawnAndInTheBoardsOrder) {
   const Target target = make_target(9, 6);
-  const View view = look_at(target, GetParam(), 30);
+  const test::BoardPose view = look_at(target, GetParam(), 30);
   const auto corners = find_chessboard(render(target, view), target);
   ASSERT_TRUE(corners);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   double square = 0;
   for (std::size_t i = 0; i < corners->size(); ++i) {
-    const Eigen::Vector2d off = (*corners)[i] - pixel(view, target.points_m()[i]);
+    const Eigen::Vector2d off = (*corners)[i] - test::pixel(view, target.points_m()[i]);
     mean += off / 54;
     square += off.squaredNorm() / 54;
   }
@@ -123,7 +72,8 @@ TEST(Detector, NamesWhatItSkips) {
   const Target target = make_target(9, 6);
   for (int i = 1; i <= 3; ++i)
     cv::imwrite(folder / fmt::format("left{}.png", i), render(target, look_at(target, 0, 10 * i)));
-  cv::imwrite(folder / "left4.png", cv::Mat(height, width, CV_8U, cv::Scalar(90)));
+  cv::imwrite(folder / "left4.png",
+              cv::Mat(test::board_image_height, test::board_image_width, CV_8U, cv::Scalar(90)));
   cv::Mat small;
   cv::resize(render(target, look_at(target, 0, 20)), small, cv::Size(320, 240));
   cv::imwrite(folder / "left5.png", small);

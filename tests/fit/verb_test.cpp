@@ -1,33 +1,17 @@
 // The verb as users run it: exit codes, error lines, files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
 
 #include "core/json.h"
-#include "core/text.h"
 #include "plant/plant.h"
-#include "tests/data.h"
+#include "tests/command.h"
 #include "tests/fit/leaf.h"
 
 namespace bpms {
 namespace {
 
+using test::Outcome, test::run_bpms;
 using ::testing::HasSubstr;
-
-struct Outcome {
-  int code = 0;
-  std::string error;
-};
-
-Outcome bpms_fit(const test::TemporaryFolder& folder, const std::string& arguments) {
-  const std::string command =
-      std::string(BPMS_BINARY_DIR) + "/bpms fit " + arguments + " 2> '" + (folder / "error.txt") + "'";
-  const int status = std::system(command.c_str());
-  std::ifstream file(folder / "error.txt");
-  return {WEXITSTATUS(status), {std::istreambuf_iterator<char>(file), {}}};
-}
 
 std::string leaves_csv(const std::string& header, int leaves) {
   std::string out = header + "\n";
@@ -37,44 +21,42 @@ std::string leaves_csv(const std::string& header, int leaves) {
   return out;
 }
 
-std::string quoted(const std::string& text) {
-  return "'" + text + "'";
-}
-
 TEST(FitVerb, TableToPlantAndReport) {
   const test::TemporaryFolder folder;
-  const std::string input = folder.write("t.csv", leaves_csv("leaf,x,y,p", 4));
-  const std::string columns =
-      " --columns leaf=leaf,x=x,z=y --unit cm --function p:3 --report " + quoted(folder / "fit.json");
-  ASSERT_EQ(bpms_fit(folder, quoted(input) + columns + " -o " + quoted(folder / "out.bpms")).code, 0);
+  folder.write("t.csv", leaves_csv("leaf,x,y,p", 4));
+  const std::string fit =
+      "fit t.csv --columns leaf=leaf,x=x,z=y --unit cm --function p:3 --report fit.json -o out.bpms";
+  ASSERT_EQ(run_bpms(folder, fit).code, 0);
   const Plant plant = read_plant(folder / "out.bpms");
   EXPECT_EQ(place_organs(plant).size(), 4u);
-  const Json report = Json::parse(read_text(folder / "fit.json"));
+  const Json report = Json::parse(read_file(folder / "fit.json"));
   EXPECT_EQ(report["summary"]["organs"], 4);
   EXPECT_EQ(report["organs"][3]["functions"]["inclination"]["coefficients"].size(), 4u);
   EXPECT_TRUE(report["organs"][0]["chi2_per_dof"].is_null());
   EXPECT_EQ(report["provenance"]["inputs"].size(), 1u);
-  // An output that exists is refused.
-  EXPECT_NE(bpms_fit(folder, quoted(input) + columns + " -o " + quoted(folder / "out.bpms")).code, 0);
+  EXPECT_EQ(run_bpms(folder, fit).code, 2);  // an output that exists is refused
 }
 
 TEST(FitVerb, SeveralPlantsGoToAFolder) {
   const test::TemporaryFolder folder;
-  const std::string input = quoted(folder.write("t.csv", leaves_csv("leaf,x,y,p", 4)));
-  const std::string columns = " --columns plant=p,leaf=leaf,x=x,z=y --unit cm --function p:2 ";
-  EXPECT_THAT(bpms_fit(folder, input + columns + "-o " + quoted(folder / "out.bpms")).error,
-              HasSubstr("2 plants"));
-  ASSERT_EQ(bpms_fit(folder, input + columns + "-o " + quoted(folder / "plants")).code, 0);
+  folder.write("t.csv", leaves_csv("leaf,x,y,p", 4));
+  const std::string fit = "fit t.csv --columns plant=p,leaf=leaf,x=x,z=y --unit cm --function p:2 -o ";
+  EXPECT_THAT(run_bpms(folder, fit + "out.bpms").error, HasSubstr("2 plants"));
+  ASSERT_EQ(run_bpms(folder, fit + "plants/").code, 0);
   EXPECT_EQ(place_organs(read_plant(folder / "plants/0.bpms")).size(), 2u);
   EXPECT_EQ(place_organs(read_plant(folder / "plants/1.bpms")).size(), 2u);
+  EXPECT_THAT(run_bpms(folder, fit + "plants").error, HasSubstr("plants/0.bpms: exists already"));
+  std::filesystem::create_directory(folder / "empty");
+  EXPECT_EQ(run_bpms(folder, fit + "empty").code, 0);  // a folder that is there is as good as a new one
+  EXPECT_TRUE(std::filesystem::exists(folder / "empty/1.bpms"));
 }
 
 TEST(FitVerb, BadInputIsNamedAndLeavesNothingBehind) {
   const test::TemporaryFolder folder;
-  const std::string input = quoted(folder.write("t.csv", leaves_csv("leaf,x,y,p", 2)));
-  const std::string out = " -o " + quoted(folder / "out.bpms");
+  const std::string input = "t.csv";
+  folder.write(input, leaves_csv("leaf,x,y,p", 2));
   const auto expect = [&](const std::string& arguments, int code, const std::string& part) {
-    const Outcome outcome = bpms_fit(folder, arguments + out);
+    const Outcome outcome = run_bpms(folder, "fit " + arguments + " -o out.bpms");
     EXPECT_EQ(outcome.code, code) << outcome.error;
     EXPECT_THAT(outcome.error, HasSubstr("error: "));
     EXPECT_THAT(outcome.error, HasSubstr(part));
@@ -87,11 +69,11 @@ TEST(FitVerb, BadInputIsNamedAndLeavesNothingBehind) {
   expect(input + " --columns leaf=leaf,x=x,z=y --unit cm --function p:99", 2, "p:99");
   expect(input, 2, "plant");
   expect(input + " --unit cm", 2, "--columns");
-  expect(quoted(folder / "absent.csv"), 3, "absent.csv");
-  const std::string few = quoted(folder.write("few.csv", "leaf,x,y\n1,0,0\n1,1,1\n1,2,1\n"));
-  expect(few + " --columns leaf=leaf,x=x,z=y --unit cm", 2, "3 midrib points");
-  const std::string same = quoted(folder.write("same.csv", "leaf,x,y\n1,0,0\n1,0,0\n1,0,0\n1,0,0\n1,0,0\n"));
-  expect(same + " --columns leaf=leaf,x=x,z=y --unit cm", 2, "different places");
+  expect("absent.csv", 3, "absent.csv");
+  folder.write("few.csv", "leaf,x,y\n1,0,0\n1,1,1\n1,2,1\n");
+  expect("few.csv --columns leaf=leaf,x=x,z=y --unit cm", 2, "3 midrib points");
+  folder.write("same.csv", "leaf,x,y\n1,0,0\n1,0,0\n1,0,0\n1,0,0\n1,0,0\n");
+  expect("same.csv --columns leaf=leaf,x=x,z=y --unit cm", 2, "different places");
 }
 
 TEST(FitVerb, VectorsWithAPotAndAFailedLeaf) {
@@ -108,13 +90,12 @@ TEST(FitVerb, VectorsWithAPotAndAFailedLeaf) {
   points.push_back(other);
   other.label = {"1", "1", 0, "pot", "outline"};
   points.push_back(other);
-  const std::string input = quoted(folder.write("v.csv", vectors_csv(points)));
-  const Outcome outcome = bpms_fit(
-      folder, input + " --json -o " + quoted(folder / "out.bpms") + " > " + quoted(folder / "out.json"));
+  folder.write("v.csv", vectors_csv(points));
+  const Outcome outcome = run_bpms(folder, "fit v.csv --json -o out.bpms");
   ASSERT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_THAT(outcome.error, HasSubstr("organ 'pot': 1 points left out"));
   EXPECT_THAT(outcome.error, HasSubstr("rank 2 leaf: not fitted"));
-  const Json report = Json::parse(read_text(folder / "out.json"));
+  const Json report = Json::parse(outcome.out);
   EXPECT_EQ(report["summary"]["failed"], 1);
   EXPECT_TRUE(report["organs"][1]["length_m"].is_null());
   EXPECT_TRUE(report["organs"][1]["id"].is_null());

@@ -1,31 +1,18 @@
 // The verb as users run it: outputs, exit codes, report.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include "core/json.h"
 #include "core/png.h"
-#include "core/text.h"
 #include "core/units.h"
-#include "tests/data.h"
+#include "tests/command.h"
 #include "tests/reconstruct/synthetic.h"
 
 namespace bpms {
 namespace {
 
+using test::Outcome, test::run_bpms;
 using ::testing::HasSubstr;
-
-struct Outcome {
-  int code;
-  std::string out, error;
-};
-
-Outcome bpms(const test::TemporaryFolder& folder, const std::string& arguments) {
-  const std::string command =
-      fmt::format("cd '{}' && '{}/bpms' {} >out 2>err", folder / ".", BPMS_BINARY_DIR, arguments);
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), read_file(folder / "out"), read_file(folder / "err")};
-}
 
 std::string rows(const Rig& rig, const std::string& label, int point, const Eigen::Vector3d& x) {
   std::string out;
@@ -62,9 +49,9 @@ TEST(Command, VectorsFrameAndReport) {
   const test::TemporaryFolder folder;
   prepare(folder);
   const Outcome run =
-      bpms(folder,
-           "reconstruct points.csv --rig rig.toml -o v.csv --up-from pot.csv --origin organ=bud "
-           "--photographs left=left.png --report r.json");
+      run_bpms(folder,
+               "reconstruct points.csv --rig rig.toml -o v.csv --up-from pot.csv --origin organ=bud "
+               "--photographs left=left.png --report r.json");
   ASSERT_EQ(run.code, 0) << run.error;
   EXPECT_THAT(run.error, HasSubstr("rejected: plant 1 axis 1 rank 1 leaf midrib point 4: chi2 = "));
   const auto vectors = read_vectors(folder / "v.csv");
@@ -107,12 +94,12 @@ TEST(Command, VectorsFrameAndReport) {
 TEST(Command, VectorsGoToStandardOutput) {
   const test::TemporaryFolder folder;
   prepare(folder);
-  const Outcome run = bpms(folder, "reconstruct points.csv --rig rig.toml --quiet");
+  const Outcome run = run_bpms(folder, "reconstruct points.csv --rig rig.toml --quiet");
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.error, "");
   EXPECT_EQ(read_vectors(folder.write("v.csv", run.out)).size(), 4u);
   const Outcome digitising =
-      bpms(folder, "reconstruct points.csv --rig rig.toml --quiet --covariance digitising");
+      run_bpms(folder, "reconstruct points.csv --rig rig.toml --quiet --covariance digitising");
   const auto total = read_vectors(folder / "v.csv"),
              alone = read_vectors(folder.write("d.csv", digitising.out));
   EXPECT_EQ(total[1].x_m, alone[1].x_m);
@@ -123,7 +110,7 @@ TEST(Command, ANameInLatin1DoesNotCostTheReport) {
   const test::TemporaryFolder folder;
   prepare(folder);
   folder.write("latin.csv", header + rows(test::parallel_rig(), "bl\xe9,1,1,leaf,midrib", 1, {0, 0, 1.5}));
-  const Outcome run = bpms(folder, "reconstruct latin.csv --rig rig.toml --json");
+  const Outcome run = run_bpms(folder, "reconstruct latin.csv --rig rig.toml --json");
   ASSERT_EQ(run.code, 0) << run.error;
   EXPECT_EQ(Json::parse(run.out)["curves"][0]["plant"], "bl\xef\xbf\xbd");
 }
@@ -156,7 +143,7 @@ TEST(Command, RefusalsEndWithOneLineAndTheirCode) {
       {"points.csv --rig rig.toml --check-disparity left.png -o v.csv", 0, ""},
   };
   for (const Case& c : cases) {
-    const Outcome run = bpms(folder, "reconstruct --quiet " + c.arguments);
+    const Outcome run = run_bpms(folder, "reconstruct --quiet " + c.arguments);
     EXPECT_EQ(run.code, c.code) << c.arguments << "\n" << run.error;
     EXPECT_THAT(run.error, HasSubstr(c.message)) << c.arguments;
   }
