@@ -19,7 +19,10 @@ std::string temporary_name(const std::string& path) {
 }
 }  // namespace
 
-void require_writable(const std::string& path, bool overwrite) {
+namespace {
+
+// A place where the file may stand: not a folder, not there already, in a folder that is there.
+void require_free(const std::string& path, bool overwrite) {
   std::error_code code;
   if (path.empty()) throw Error(ErrorKind::bad_input, "an output file name is empty");
   if (fs::is_directory(path, code))
@@ -28,6 +31,12 @@ void require_writable(const std::string& path, bool overwrite) {
     fail(ErrorKind::bad_input, {path}, "exists already; give --overwrite to replace it");
   const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
   if (!fs::is_directory(folder, code)) fail(ErrorKind::missing_resource, {path}, "its folder does not exist");
+}
+
+}  // namespace
+
+void require_writable(const std::string& path, bool overwrite) {
+  require_free(path, overwrite);
   // Tried, not asked: root may write everywhere by its rights, but not to /proc or a read-only disk.
   const std::string trial = temporary_name(path);
   const int file = ::open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0644);
@@ -70,7 +79,7 @@ void AtomicFile::commit() {
   const int why = errno;
   if (file >= 0) ::close(file);
   if (!synced) fail(ErrorKind::missing_resource, {path_}, "cannot be written: {}", std::strerror(why));
-  require_writable(path_, overwrite_);  // somebody else may have written it in the meantime
+  require_free(path_, overwrite_);  // somebody else may have written it in the meantime
   if (::rename(temporary_.c_str(), path_.c_str()) != 0)
     fail(ErrorKind::missing_resource, {path_}, "cannot be put in its place: {}", std::strerror(errno));
   committed_ = true;
