@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "calibrate/brown_conrady.h"
+#include "core/statistics.h"
 
 namespace bpms {
 namespace {
@@ -130,10 +131,8 @@ double robust_sigma(const BundleProblem& problem, const BundleState& state) {
     for (int axis = 0; axis < 2; ++axis) sizes.push_back(r ? std::abs((*r)[axis]) : HUGE_VAL);
   }
   if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
   constexpr double median_of_half_normal = 0.6745;
-  return *middle / median_of_half_normal;
+  return median(std::move(sizes)) / median_of_half_normal;
 }
 
 AdjustResult adjust(const BundleProblem& problem, const AdjustOptions& options, BundleState& state) {

@@ -10,6 +10,7 @@
 #include "core/interrupt.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "core/text.h"
 
 namespace bpms {
 namespace {
@@ -36,9 +37,20 @@ Image name_image(const std::string& path) {
   return out;
 }
 
+// The PNG decoder would say so on stderr by itself, without the file's name.
+bool is_png_cut_short(const std::string& path) {
+  const std::string bytes = read_file(path);
+  constexpr std::string_view end = "IEND\xae\x42\x60\x82";
+  return bytes.starts_with("\x89PNG") && bytes.find(end) == std::string::npos;
+}
+
 void look(const Target& target, Image& image) {
   if (!std::filesystem::exists(image.path)) {
     image.trouble = "no such file";
+    return;
+  }
+  if (is_png_cut_short(image.path)) {
+    image.trouble = "is cut short";
     return;
   }
   cv::Mat grey;

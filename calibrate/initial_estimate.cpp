@@ -7,6 +7,7 @@
 #include <set>
 
 #include "calibrate/homography.h"
+#include "core/statistics.h"
 
 namespace bpms {
 namespace {
@@ -82,9 +83,8 @@ BundleState single_camera(const BundleProblem& joint, int index, const Observati
   std::erase_if(alone.corners, [&](const CornerObservation& c) { return !residual(alone, state, c); });
   for (const CornerObservation& corner : alone.corners) frames.insert(corner.frame);
   if (alone.corners.empty()) return state;
-  alone.free_bending = false;              // the joint solve knows it better
-  constexpr double rough = 1e-3;           // a start for what follows
-  constexpr double cauchy_sigmas = 2.385;  // 95 % efficient on normal residuals
+  alone.free_bending = false;     // the joint solve knows it better
+  constexpr double rough = 1e-3;  // a start for what follows
   adjust(alone, {.tolerance = rough, .most_iterations = 50}, state);
   for (int round = 0; round < 2; ++round) {
     const double sigma = robust_sigma(alone, state);
@@ -107,9 +107,8 @@ Pose medoid(const std::vector<Pose>& candidates) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     std::vector<double> distances;
     for (const Pose& other : candidates) distances.push_back(distance(candidates[i], other, size));
-    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
-                     distances.end());
-    if (distances[distances.size() / 2] < least) least = distances[distances.size() / 2], best = i;
+    const double middle = median(std::move(distances));
+    if (middle < least) least = middle, best = i;
   }
   return candidates[best];
 }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
+
 namespace bpms {
 namespace {
 
-constexpr double cauchy_sigmas = 2.385;   // 95 % efficient on normal residuals
 constexpr double corner_sigmas = 6;       // a corner farther off is out (of normal ones 1 in 65 million)
 constexpr double garbage_share = 0.5;     // a view with more of its corners out is out as a whole
 constexpr double view_rms_of_median = 4;  // a view is called an outlier above this many times the median rms
@@ -46,10 +47,7 @@ void judge_views(const BundleProblem& problem, const BundleState& state, std::si
   }
   for (std::size_t v = 0; v < views; ++v)
     out.view_rms_px.push_back(std::sqrt(squared[v] / std::max(count[v], 1)));
-  std::vector<double> sorted = out.view_rms_px;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = view_rms_of_median * std::max(*middle, least_sigma_px);
+  const double limit = view_rms_of_median * std::max(median(out.view_rms_px), least_sigma_px);
   for (const double rms : out.view_rms_px) out.view_out.push_back(rms > limit);
 }
 

@@ -4,6 +4,9 @@
 #include <map>
 #include <tuple>
 
+#include "core/error.h"
+#include "core/nearest.h"
+
 namespace bpms {
 namespace {
 
@@ -47,6 +50,10 @@ std::vector<MeasuredOrgan> group_organs(const std::vector<VectorPoint>& points,
     if (std::vector<VectorPoint>* list = points_of(out[at->second], label.feature)) {
       list->push_back(point);
     } else {
+      const std::vector<std::string> fitted{"midrib", "axis", "edge_left", "edge_right"};
+      if (const std::string meant = nearest_word(label.feature, fitted); !meant.empty())
+        bad_input(point.where, "unknown feature {}; did you mean {}?", in_quotes(label.feature),
+                  in_quotes(meant));
       ++ignored["feature '" + label.feature + "' of " + label.organ];
     }
   }

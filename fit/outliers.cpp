@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "fit/leaf_trial.h"
 
 namespace bpms {
@@ -17,9 +18,8 @@ double robust_variance(const CurveSolution& solution, const std::vector<LeafObse
     if (observations[k].place_free && observations[k].weight > 0) d2.push_back(solution.distance2[k]);
   }
   if (d2.empty()) return 1;
-  std::nth_element(d2.begin(), d2.begin() + static_cast<std::ptrdiff_t>(d2.size() / 2), d2.end());
   constexpr double median_chi2_2 = 1.3862943611198906;
-  return std::max(1.0, d2[d2.size() / 2] / median_chi2_2);
+  return std::max(1.0, median(std::move(d2)) / median_chi2_2);
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ double robust_variance(const CurveSolution& solution, const std::vector<LeafObse
 std::vector<std::size_t> far_observations(LeafModel& model, std::vector<LeafObservation> observations,
                                           const Eigen::VectorXd& start, int held) {
   constexpr int passes = 8;
-  constexpr double cauchy2 = 2.385 * 2.385;
+  constexpr double cauchy2 = cauchy_sigmas * cauchy_sigmas;
   CurveSolution solution = solve_curves(model, observations, start, held);
   // A bad point bends the plain fit and blows up its scatter: whether to look closer is asked of the stated
   // errors.

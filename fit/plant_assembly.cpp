@@ -31,12 +31,10 @@ OrganAttributes attributes_of(const OrganFit& fit, const AssemblyOptions& option
   if (leaf) {
     out.f_twist = angle_function(fit, "twist");
     out.width_m = options.width_m;
-    if (width != fit.functions.end() && fit.width_m > 0) {
-      out.width_m = fit.width_m;
-      out.f_width = width->second.basis.function(width->second.coefficients / fit.width_m, 1.0);
-    }
-  } else if (width != fit.functions.end() && fit.width_m > 0) {
-    out.radius_m = fit.width_m / 2;
+  }
+  if (width != fit.functions.end() && fit.width_m > 0) {
+    (leaf ? out.width_m : out.radius_m) = leaf ? fit.width_m : fit.width_m / 2;
+    out.f_width = width->second.basis.function(width->second.coefficients / fit.width_m, 1.0);
   }
   return out;
 }

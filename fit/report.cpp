@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "core/units.h"
 
 namespace bpms {
@@ -76,15 +77,6 @@ Json measured(const OrganFit& fit) {
   Json out{{"l", l}, {"inclination", inclination}};
   if (fit.functions.contains("azimuth")) out["azimuth"] = azimuth;
   return out;
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const double at = q * static_cast<double>(values.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, values.size() - 1);
-  return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
 }
 
 Json organ(const OrganFit& fit) {

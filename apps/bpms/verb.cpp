@@ -23,7 +23,8 @@ CLI::App* add_verb(Cli& cli, const std::string& name, const std::string& summary
   CommonOptions& common = cli.common;
   verb->add_option("-o,--output", common.output, "output file");
   verb->add_option("--report", common.report, "report of the run: FILE.json, or FILE.html to look at");
-  verb->add_option("--seed", common.seed, "seed of all random numbers (default 1)");
+  verb->add_option("--seed", common.seed,
+                   "seed of the run (default 1); a canopy is planted by the seed in its file");
   verb->add_option("--threads", common.threads, "threads (default: all cores)")->check(CLI::Range(0, 1024));
   verb->add_flag("--quiet", common.quiet, "no progress and no notes");
   verb->add_flag("--json", common.json, "the report on stdout as one JSON object");

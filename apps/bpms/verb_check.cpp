@@ -19,8 +19,8 @@
 namespace bpms {
 namespace {
 
-bool first_line_has(std::string_view head, std::string_view word) {
-  return head.substr(0, head.find('\n')).find(word) != std::string_view::npos;
+bool first_line_has(std::string_view text, std::string_view word) {
+  return text.substr(0, text.find('\n')).find(word) != std::string_view::npos;
 }
 
 std::string check_plant(const std::string& path) {
@@ -48,36 +48,36 @@ std::string check_scene(const std::string& path) {
 
 const std::vector<FileKind>& kinds() {
   static const std::vector<FileKind> table{
-      {"points.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "u_px"); },
+      {"points.csv", [](const std::string&, std::string_view text) { return first_line_has(text, "u_px"); },
        [](const std::string& path) {
          return fmt::format("{} image points", read_image_points(path).size());
        }},
-      {"vectors.csv", [](const std::string&, std::string_view head) { return first_line_has(head, "x_m"); },
+      {"vectors.csv", [](const std::string&, std::string_view text) { return first_line_has(text, "x_m"); },
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
       {"plant.bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
        check_plant},
       {"canopy.toml",
-       [](const std::string& path, std::string_view head) {
-         return path.ends_with(".toml") && (head.find("[planting]") != std::string_view::npos ||
-                                            head.find("[[plants]]") != std::string_view::npos);
+       [](const std::string& path, std::string_view text) {
+         return path.ends_with(".toml") && (text.find("[planting]") != std::string_view::npos ||
+                                            text.find("[[plants]]") != std::string_view::npos);
        },
        check_canopy},
       {"rig.toml",
-       [](const std::string&, std::string_view head) {
-         return head.find("[[cameras]]") != std::string_view::npos;
+       [](const std::string&, std::string_view text) {
+         return text.find("[[cameras]]") != std::string_view::npos;
        },
        [](const std::string& path) { return fmt::format("{} cameras", read_rig(path).cameras.size()); }},
       {"board.toml",
-       [](const std::string&, std::string_view head) {
-         return head.find("square_m") != std::string_view::npos;
+       [](const std::string&, std::string_view text) {
+         return text.find("square_m") != std::string_view::npos;
        },
        [](const std::string& path) { return fmt::format("{} corners", read_board(path).size()); }},
       {"scene.toml",
-       [](const std::string& path, std::string_view head) {
+       [](const std::string& path, std::string_view text) {
          if (!path.ends_with(".toml")) return false;
          for (const char* word :
               {"[illumination]", "[[sensors]]", "[sampling]", "[materials.", "[prototypes."})
-           if (head.find(word) != std::string_view::npos) return true;
+           if (text.find(word) != std::string_view::npos) return true;
          return false;
        },
        check_scene},
@@ -88,12 +88,10 @@ const std::vector<FileKind>& kinds() {
 void run(const Cli& cli, const std::vector<std::string>& files) {
   Json results = Json::array();
   for (const std::string& path : files) {
-    constexpr std::size_t head_size = 4096;
     const std::string text = read_text(path);
-    const std::string_view head = std::string_view(text).substr(0, head_size);
     const FileKind* found = nullptr;
     for (const FileKind& kind : kinds()) {
-      if (found == nullptr && kind.recognise(path, head)) found = &kind;
+      if (found == nullptr && kind.recognise(path, text)) found = &kind;
     }
     if (found == nullptr) bad_input({path}, "not recognised as any kind of file that bpms reads");
     const std::string summary = found->check(path);

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/nearest.h"
 #include "core/progress.h"
+#include "core/statistics.h"
 #include "core/text.h"
 #include "reconstruct/photograph.h"
 #include "reconstruct/report.h"
@@ -114,6 +115,21 @@ std::string vectors_text(const Vectors& vectors, const Frame& frame, bool with_r
   return vectors_csv(rows);
 }
 
+// The rig's errors are the same for all points, which a fit of rows taken as independent does not know.
+void note_common_errors(const Vectors& vectors) {
+  constexpr double worth_a_note = 0.1;
+  std::vector<double> shares;
+  for (const ReconstructedPoint& p : vectors.points)
+    if (p.accepted())
+      shares.push_back(p.estimate->rig_covariance_m2.trace() / p.estimate->covariance_m2().trace());
+  const double share = median(std::move(shares));
+  if (share > worth_a_note)
+    note(fmt::format(
+        "{:.0f} % of the points' variance comes from the rig and is common to all of them: to fit "
+        "them, take --covariance digitising",
+        100 * share));
+}
+
 Json numbers(const Eigen::Vector3d& x) {
   return std::array<double, 3>{x.x(), x.y(), x.z()};
 }
@@ -178,6 +194,7 @@ void run(const Cli& cli, const ReconstructArguments& options) {
     made.add_input(options.disparity_map);
     report["check"] = check_json(check_disparity(options.disparity_map, vectors, rig));
   }
+  if (options.covariance == "total") note_common_errors(vectors);
   const std::string text = vectors_text(vectors, frame, options.covariance == "total");
   if (!cli.common.output.empty() && cli.common.output != "-")
     write_file(cli.common.output, text, cli.common.overwrite);

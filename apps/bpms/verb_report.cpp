@@ -62,6 +62,8 @@ void add_report(Cli& cli) {
   CLI::App* verb = add_verb(cli, "report", "one self-contained page from the reports of several runs",
                             "bpms report calibrate.json reconstruct.json simulate.json -o report.html",
                             [&cli, options] { run(cli, *options); });
+  // It reports on others, and has no report of its own.
+  for (const char* name : {"--report", "--json"}) verb->remove_option(verb->get_option(name));
   verb->add_option("files", options->files, "reports (JSON) in the order they shall stand")->required();
   verb->add_option("--title", options->title, "title of the page");
   verb->add_option("--note", options->notes, "a sentence at the head of the page (may be given again)");

@@ -23,6 +23,7 @@ struct PlantingField {
   Philox random;
   std::vector<std::string> notes;
   std::vector<std::string> inputs;  // files that the pattern read
+  double wanted = 0;                // plants that its density asks for; 0: it asks for none
 
   double area_m2() const { return size_m.x() * size_m.y(); }
   // Into the domain [-size/2, size/2) of a periodic field.

@@ -89,12 +89,18 @@ Canopy read_canopy(const std::string& path, std::optional<std::uint64_t> seed) {
   if (const TomlValue terrain = root.get("terrain")) terrain.reject("terrain is not built yet");
 
   const TomlValue planting = root.require("planting");
-  PlantingField field{canopy.size_m, canopy.periodic, Philox(canopy.seed, pattern_stream), {}, {}};
+  PlantingField field{canopy.size_m, canopy.periodic, Philox(canopy.seed, pattern_stream), {}, {}, 0};
   const TomlValue depth_key = planting.get("depth_m");
   const std::vector<PlantingSite> sites = find_pattern(planting.require("pattern"))(planting, field);
   const MeanSd depth = depth_key ? mean_sd(depth_key) : MeanSd{};
   document.finish();
 
+  constexpr double worth_a_note = 0.005;
+  const auto planted = static_cast<double>(sites.size());
+  if (field.wanted > 0 && std::abs(planted / field.wanted - 1) > worth_a_note)
+    field.notes.push_back(
+        fmt::format("{} plants, {:.6g} were asked for: what falls outside an open domain is left out",
+                    sites.size(), field.wanted));
   canopy.notes.insert(canopy.notes.end(), field.notes.begin(), field.notes.end());
   canopy.inputs.insert(canopy.inputs.end(), field.inputs.begin(), field.inputs.end());
   canopy.placements.reserve(sites.size());

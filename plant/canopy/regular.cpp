@@ -14,6 +14,7 @@ std::vector<PlantingSite> plant_regular(const TomlValue& planting, PlantingField
     planting.reject("expected one of density_per_m2 and spacing_m");
   const MeanSd wanted =
       spacing_key ? positive_mean_sd(spacing_key) : MeanSd{1 / std::sqrt(density_key.positive()), 0};
+  if (density_key) field.wanted = density_key.positive() * field.area_m2();
   plant_count(field.area_m2() / (wanted.mean * wanted.mean), spacing_key ? spacing_key : density_key);
   Eigen::Vector2d spacing(wanted.mean, wanted.mean);
   long long count[2];

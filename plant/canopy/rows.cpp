@@ -101,6 +101,7 @@ std::vector<PlantingSite> plant_rows(const TomlValue& planting, PlantingField& f
   else
     in_row.mean = total_length / (density_key.positive() * field.area_m2());
   const TomlValue key = in_row_key ? in_row_key : density_key;
+  if (density_key) field.wanted = density_key.positive() * field.area_m2();
   const std::size_t plants = plant_count(total_length / in_row.mean, key);
 
   // Displacements of sd / sqrt 2 on either side give the distance between neighbours its sd.

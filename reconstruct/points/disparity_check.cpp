@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "reconstruct/photograph.h"
 
 namespace bpms {
@@ -37,14 +38,6 @@ Rectified rectified_pair(const Rig& rig) {
   if (std::abs(apart.x()) < (1 - same) * baseline || baseline == 0) refuse("the baseline is not along x");
   return {static_cast<int>(left - rig.cameras.data()), static_cast<int>(right - rig.cameras.data()), a[0],
           baseline, b[2] - a[2]};
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 }  // namespace
