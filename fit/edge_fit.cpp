@@ -10,8 +10,9 @@
 namespace bpms {
 namespace {
 
-// Where no edge point lies a rich function may run off; one that does is no candidate.
-bool stays_near(const LeafTrial& trial, const EdgeStart& edges) {
+// Where no edge point lies a rich function may run off; one that does is no candidate. Nor is one by which a
+// blade widens beyond its last edge point, where it runs out to its tip.
+bool stays_near(const LeafTrial& trial, const EdgeStart& edges, bool has_tip) {
   constexpr double wide = 1.5, inside_out = -0.25, turned = pi / 3;
   constexpr int steps = 40;
   const double widest = *std::max_element(edges.width.begin(), edges.width.end());
@@ -19,6 +20,9 @@ bool stays_near(const LeafTrial& trial, const EdgeStart& edges) {
   const LeafModelShape& shape = trial.model.shape();
   const Eigen::VectorXd& p = trial.solution.parameters;
   Eigen::VectorXd twist_basis(shape.twist.size()), width_basis(shape.width.size());
+  const double last = *std::max_element(edges.l.begin(), edges.l.end());
+  shape.width.values(last, width_basis.data());
+  const double last_width = width_basis.dot(p.segment(trial.model.at_width(), width_basis.size()));
   for (int k = 0; k <= steps; ++k) {
     shape.twist.values(static_cast<double>(k) / steps, twist_basis.data());
     shape.width.values(static_cast<double>(k) / steps, width_basis.data());
@@ -27,6 +31,7 @@ bool stays_near(const LeafTrial& trial, const EdgeStart& edges) {
     if (width > wide * widest || width < inside_out * widest || twist < *least - turned ||
         twist > *most + turned)
       return false;
+    if (has_tip && k > last * steps && width > last_width) return false;
   }
   return true;
 }
@@ -68,7 +73,7 @@ std::optional<LeafTrial> fit_edges(LeafProblem& problem, const LeafTrial& midrib
   };
   const auto sensible = [&](FunctionChoice twist, FunctionChoice width) {
     std::optional<LeafTrial> trial = solve(twist, width);
-    return trial && stays_near(*trial, start) ? trial : std::nullopt;
+    return trial && stays_near(*trial, start, out.measured.organ == "leaf") ? trial : std::nullopt;
   };
   FunctionChoice twist = request.twist.value_or(FunctionChoice{'p', 1});
   FunctionChoice width = request.width.value_or(FunctionChoice{'p', 2});

@@ -207,9 +207,11 @@ bool Wave<Tally>::scatter(Path& path, int order) {
   const float strength = path.weight.guide.largest();
   if (!(strength > 0)) return false;
   if (sampling_.roulette) {
-    // As absorption would do it: variance x cost is least where the chance to go on follows the weight. The
-    // sky is seen by the ray that goes on from the first hit, which is then worth its cost.
-    const float survival = order == 0 && light_.sky ? 1.0f : strength;
+    // Least variance x cost: a chance to go on in proportion to the weight (Bolin & Meyer 1997, SIGGRAPH), by
+    // a factor that was measured on the homogeneous disc canopy: 1 (as absorption would do it) and 2 are
+    // worse. The sky is seen by the ray that goes on from the first hit, which is then worth its cost.
+    constexpr float factor = 1.6f;
+    const float survival = order == 0 && light_.sky ? 1.0f : factor * strength;
     if (random.survival >= static_cast<double>(survival)) return false;
     if (survival < 1.0f) tallies_[path.batch]->scale(path.weight, 1.0f / survival);
   }
