@@ -15,7 +15,7 @@
 namespace bpms {
 namespace {
 
-constexpr double largest_m = 1e7;
+constexpr double farthest_m = 1e7;
 
 class SceneReader {
  public:
@@ -49,7 +49,7 @@ class SceneReader {
     Domain& out = scene_.domain;
     if (const TomlValue size = domain.get("size_m")) {
       const std::vector<double> numbers = size.numbers(2);
-      if (!(numbers[0] > 0 && numbers[1] > 0 && std::max(numbers[0], numbers[1]) <= largest_m))
+      if (!(numbers[0] > 0 && numbers[1] > 0 && std::max(numbers[0], numbers[1]) <= farthest_m))
         size.reject("expected two lengths above 0 and up to 1e7 m");
       out.size_m = {numbers[0], numbers[1]};
     }
@@ -74,7 +74,7 @@ class SceneReader {
     const TomlValue type = ground.require("type");
     if (type.one_of({"plane", "dem"}) == "dem") type.reject("terrain is not built yet; a plane is");
     Ground out;
-    if (const TomlValue height = ground.get("height_m")) out.height_m = height.number(-largest_m, largest_m);
+    if (const TomlValue height = ground.get("height_m")) out.height_m = height.number(-farthest_m, farthest_m);
     const TomlValue material = ground.require("material");
     out.material = names_.number(material.string(), material.where());
     scene_.ground = out;
@@ -148,7 +148,7 @@ class SceneReader {
   }
 
   static bool too_far(const std::vector<double>& row) {
-    return std::any_of(row.begin(), row.begin() + 3, [](double x) { return std::abs(x) > largest_m; });
+    return std::any_of(row.begin(), row.begin() + 3, [](double x) { return std::abs(x) > farthest_m; });
   }
 
   std::uint32_t prototype_number(const TomlValue& which) const {
