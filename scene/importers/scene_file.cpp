@@ -74,7 +74,8 @@ class SceneReader {
     const TomlValue type = ground.require("type");
     if (type.one_of({"plane", "dem"}) == "dem") type.reject("terrain is not built yet; a plane is");
     Ground out;
-    if (const TomlValue height = ground.get("height_m")) out.height_m = height.number(-farthest_m, farthest_m);
+    if (const TomlValue height = ground.get("height_m"))
+      out.height_m = height.number(-farthest_m, farthest_m);
     const TomlValue material = ground.require("material");
     out.material = names_.number(material.string(), material.where());
     scene_.ground = out;
