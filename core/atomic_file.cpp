@@ -17,9 +17,6 @@ namespace {
 std::string temporary_name(const std::string& path) {
   return fmt::format("{}.{}.part", path, ::getpid());
 }
-}  // namespace
-
-namespace {
 
 // A place where the file may stand: not a folder, not there already, in a folder that is there.
 void require_free(const std::string& path, bool overwrite) {

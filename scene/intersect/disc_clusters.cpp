@@ -51,9 +51,10 @@ void DiscClusters::bounds(const RTCBoundsFunctionArguments* arguments) {
   for (std::size_t i = 0; i < wide; ++i) {
     if (c.radius2[i] < 0) continue;
     const Eigen::Array3f centre(c.x[i], c.y[i], c.z[i]), normal(c.nx[i], c.ny[i], c.nz[i]);
-    constexpr float hair = 1e-6f;  // of rounding, here and in the normal's length
+    // Of the place's rounding, and of the normal's: 1 - n^2 is off by 1e-7, its root by up to 1e-3.
+    constexpr float hair = 1e-6f, tilt = 1e-3f;
     const Eigen::Array3f half =
-        std::sqrt(c.radius2[i]) * ((1 - normal.square()).max(0).sqrt() + 1e-3f) + hair * centre.abs();
+        std::sqrt(c.radius2[i]) * ((1 - normal.square()).max(0).sqrt() + tilt) + hair * centre.abs();
     low = low.min(centre - half);
     high = high.max(centre + half);
   }

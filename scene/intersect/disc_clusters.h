@@ -34,11 +34,10 @@ class DiscClusters {
   struct alignas(32) Cluster {  // by component; empty places have a negative squared radius
     float x[wide], y[wide], z[wide], nx[wide], ny[wide], nz[wide], radius2[wide];
   };
-  // What a ray needs to be tested: t[i] = where it meets disc i's plane inside the disc and in (near, far),
-  // or infinity.
-  struct Query {
+  struct Query {  // a ray
     float origin[3], direction[3], near, far;
   };
+  // Is any disc met? t[i]: where along the ray disc i is, in (near, far), or infinity.
   static bool test(const Cluster& cluster, const Query& query, float* t);
 
   std::vector<Cluster> clusters_;

@@ -101,6 +101,9 @@ INSTANTIATE_TEST_SUITE_P(
                {"'left' has 2 usable views", "at least 3"}),
         images("TwoUsableAndOneOfAnotherSize", both(board_images(2), blank_image("left3.png", 320, 240)), "",
                {"2 usable views"}),
+        images("TwoUsableAndOneCutShort",
+               two_boards_and("left3.png", std::string("\x89PNG\r\n\x1a\n") + "IHDR"), "",
+               {"left3.png", "cut short"}),
         images("TwoUsableAndOneThatIsNoImage", two_boards_and("left3.png", "no image"), "",
                {"2 usable views"})}),
     name_of_case);

@@ -142,6 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "1: ", {"no column 'x_m'", "did you mean 'x_mm'?"}),
         vectors("NegativeVariance", "1e-8", "-1e-8", "2:", {"not positive semi-definite"}),
         vectors("PartOfACovariance", ",zz\n", ",zzz\n", "1: ", {"no column 'zz'"}),
+        vectors("MisspeltFeature", "midrib", "midrb", "2:", {"'midrb'", "did you mean 'midrib'?"}),
         vectors("PointTwice", "midrib,1,", "midrib,0,", "3:", {"point 0 stands twice"}),
         Refusal{"OnlyAnotherOrgan",
                 written("vectors.csv", vector_head + "1,1,1,pot,rim,1,0,0,0,1,0,0,1,0,1\n"),
