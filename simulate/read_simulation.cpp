@@ -74,11 +74,12 @@ Simulation parse_simulation(const std::string& path, std::string_view text) {
   out.inputs = out.scene.inputs;
   out.bands = read_bands(root.get("bands"));
   out.materials = read_materials(root.get("materials"), out.scene, out.bands, out.inputs);
-  out.light = read_light(root.require("illumination"), out.scene.domain, out.bands, out.inputs);
+  out.light =
+      read_light(root.require("illumination"), out.scene.domain, out.bands, out.inputs, out.scene.notes);
   const TomlValue sensors = root.require("sensors");
   if (!sensors.is_array() || sensors.size() == 0) sensors.reject("expected at least one [[sensors]]");
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    out.sensors.push_back(read_sensor(sensors[i], out.scene.domain, out.light));
+    out.sensors.push_back(read_sensor(sensors[i], {out.scene, out.light, out.inputs, out.scene.notes}));
     for (std::size_t k = 0; k < i; ++k)
       if (out.sensors[k]->name == out.sensors[i]->name)
         sensors[i].require("name").reject(fmt::format("a second sensor named \"{}\"", out.sensors[i]->name));

@@ -27,8 +27,8 @@ class Rows {
     field(csv_field(sensor_->name));
     field(band < 0 ? "" : std::to_string(band + 1));
     field(csv_number(band < 0 || nm.empty() ? no_value : nm[static_cast<std::size_t>(band)]));
-    field(csv_number(light.sun ? light.sun->zenith_deg : no_value));
-    field(csv_number(light.sun ? light.sun->azimuth_deg : no_value));
+    field(csv_number(!light.suns.empty() ? light.suns.front().zenith_deg : no_value));
+    field(csv_number(!light.suns.empty() ? light.suns.front().azimuth_deg : no_value));
     field(csv_number(sensor_->vza_deg(view)));
     field(csv_number(sensor_->vaa_deg(view)));
     field(origin);
@@ -76,7 +76,7 @@ void add_fractions(const Simulation& simulation, const SensorResult& result, std
   };
   add("gap", result.gap, view, -1);
   const std::size_t materials = simulation.materials.size();
-  for (std::size_t m = 0; m < materials && simulation.light.sun; ++m) {
+  for (std::size_t m = 0; m < materials && !simulation.light.suns.empty(); ++m) {
     add("fraction_sunlit", result.sunlit, view * materials + m, static_cast<int>(m));
     add("fraction_shaded", result.shaded, view * materials + m, static_cast<int>(m));
   }

@@ -56,12 +56,12 @@ class SensorVariables {
     return to;
   }
   Origin main_origin() const {
-    return simulation_.light.sun && simulation_.light.sky ? Origin::direct : Origin::total;
+    return !simulation_.light.suns.empty() && simulation_.light.sky ? Origin::direct : Origin::total;
   }
 
   void write_angles() {
     std::vector<double> vza, vaa, sza, saa;
-    const auto& sun = simulation_.light.sun;
+    const Sun* sun = simulation_.light.suns.empty() ? nullptr : &simulation_.light.suns.front();
     for (std::size_t view = 0; view < result_.sensor->views(); ++view) {
       vza.push_back(result_.sensor->vza_deg(view));
       vaa.push_back(result_.sensor->vaa_deg(view));
@@ -197,7 +197,7 @@ class SensorVariables {
                {{"units", "1"}, {"long_name", "standard error of " + what}});
     };
     put_fraction("gap", views_, result_.gap, "fraction of view that meets no canopy");
-    if (!simulation_.light.sun || simulation_.materials.empty()) return;
+    if (simulation_.light.suns.empty() || simulation_.materials.empty()) return;
     put_fraction("fraction_sunlit", with(views_, "material"), result_.sunlit,
                  "fraction of view that is sunlit, by material met first");
     put_fraction("fraction_shaded", with(views_, "material"), result_.shaded,
@@ -262,12 +262,12 @@ void write_netcdf(const Simulation& simulation, const Result& result, const Prov
   file.dimension("band", simulation.bands.count());
   file.variable("wavelength", {"band"}, nm.empty() ? std::vector<double>{no_value} : nm,
                 {{"units", "nm"}, {"long_name", "wavelength"}, {"standard_name", "radiation_wavelength"}});
-  if (simulation.light.sun && simulation.light.sky) {
+  if (!simulation.light.suns.empty() && simulation.light.sky) {
     file.dimension("origin", 3);
     file.words("origin", "origin", {"total", "direct", "diffuse"},
                {{"long_name", "source that the light came from"}});
   }
-  if (simulation.light.sun) {
+  if (!simulation.light.suns.empty()) {
     file.dimension("component", 3);
     file.words("component", "component", {"uc_sgl", "co_sgl", "mlt"},
                {{"long_name", "single scattering by the ground, by the canopy; multiple scattering"}});

@@ -12,8 +12,8 @@ Json wavelength(const Bands& bands, std::size_t band) {
   return bands.wavelengths_nm.empty() ? Json(nullptr) : Json(bands.wavelengths_nm[band]);
 }
 Json sun_angle(const Light& light, bool zenith) {
-  if (!light.sun) return nullptr;
-  return zenith ? light.sun->zenith_deg : light.sun->azimuth_deg;
+  if (light.suns.empty()) return nullptr;
+  return zenith ? light.suns.front().zenith_deg : light.suns.front().azimuth_deg;
 }
 
 struct Curve {
@@ -67,7 +67,7 @@ void add_series(const Simulation& simulation, const SensorResult& result, Json& 
   }
   out.push_back(series_of(simulation, result, "gap", nullptr, nullptr, nullptr, nullptr,
                           curve_over_views(result, result.gap, 1, 0, 1)));
-  for (std::size_t m = 0; m < materials && simulation.light.sun; ++m) {
+  for (std::size_t m = 0; m < materials && !simulation.light.suns.empty(); ++m) {
     const auto add = [&](const char* quantity, const Estimates& of) {
       out.push_back(series_of(simulation, result, quantity, nullptr, nullptr, nullptr,
                               simulation.materials[m].name, curve_over_views(result, of, materials, m, 1)));

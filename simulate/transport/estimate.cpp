@@ -9,7 +9,7 @@
 namespace bpms {
 
 std::vector<Part> parts_of(const Light& light, int orders) {
-  const bool both = light.sun && light.sky;
+  const bool both = !light.suns.empty() && light.sky;
   std::vector<Part> out{{Origin::total, Component::all, every_order}};
   std::vector<Origin> origins{Origin::total};
   if (both) {
@@ -18,7 +18,7 @@ std::vector<Part> parts_of(const Light& light, int orders) {
     out.push_back({Origin::diffuse, Component::all, every_order});
   }
   if (orders == 0) return out;
-  if (light.sun)
+  if (!light.suns.empty())
     for (const Component component : {Component::uc_sgl, Component::co_sgl, Component::mlt})
       out.push_back({both ? Origin::direct : Origin::total, component, every_order});
   for (int order = 1; order <= orders; ++order)
@@ -33,12 +33,12 @@ void part_of_batch(const Part& part, const BatchMeans& means, const Light& light
     const bool from_sky = row == BatchMeans::sky_seen || (row >= 2 && row % 2 == 1);
     for (std::size_t band = 0; band < out.size(); ++band) {
       const double source = from_sky ? (light.sky ? light.sky->radiance[band] : 0.0)
-                                     : (light.sun ? light.sun->irradiance[band] : 0.0);
+                                     : (!light.suns.empty() ? light.suns.front().irradiance[band] : 0.0);
       out[band] += sign * source * from[band];
     }
   };
   const auto add_order = [&](int order) {
-    if (part.origin != Origin::diffuse && light.sun) add(BatchMeans::sun(order), 1);
+    if (part.origin != Origin::diffuse && !light.suns.empty()) add(BatchMeans::sun(order), 1);
     if (part.origin != Origin::direct && light.sky) add(BatchMeans::sky(order), 1);
   };
   switch (part.component) {

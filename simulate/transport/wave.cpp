@@ -49,7 +49,8 @@ Wave<Tally>::Wave(const Stage& stage, const ParallelRays* view_rays)
       light_(stage.simulation->light),
       sampling_(stage.simulation->sampling),
       view_rays_(view_rays),
-      to_sun_(light_.sun ? light_.sun->direction.cast<float>().eval() : Eigen::Vector3f::UnitZ()) {
+      to_sun_(!light_.suns.empty() ? light_.suns.front().direction.cast<float>().eval()
+                                   : Eigen::Vector3f::UnitZ()) {
   const Extent& extent = stage.extent;
   const Eigen::Vector2d size = extent.high_m - extent.low_m;
   low_ = {static_cast<float>(extent.low_m.x()), static_cast<float>(extent.low_m.y()),
@@ -73,7 +74,7 @@ void Wave<Tally>::add(const Sensor& sensor, std::size_t view, const ViewKey& key
     for (std::uint64_t sample = first; sample < last; ++sample) {
       numbers.start(sample);
       const auto [u, v] = numbers.position();
-      const Ray ray = sensor.start(view, u, v, stage_.extent);
+      const Ray ray = sensor.start(view, {u, v}, stage_.extent);
       Path& path = paths_.emplace_back();
       path.weight = tally.unit();
       path.position = ray.origin;
@@ -169,7 +170,7 @@ bool Wave<Tally>::meet(Path& path, int order) {
 // False when the path ends.
 template <class Tally>
 bool Wave<Tally>::interact(Path& path, int order) {
-  const bool lit = light_.sun && gather_sun(path, order);
+  const bool lit = !light_.suns.empty() && gather_sun(path, order);
   ViewCounts& counts = tallies_[path.batch]->counts;
   if (order == 0) ++(lit ? counts.sunlit : counts.shaded)[path.material];
   if (order + 1 == sampling_.max_order && !light_.sky) return false;
