@@ -20,6 +20,11 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const Stage stage = make_stage(simulation, intersector);
+  if (simulation.sampling.keep_interactions && stage.optics.carriage != Carriage::counted)
+    fail(
+        ErrorKind::bad_input, {},
+        "interactions cannot be counted here: a surface or the sky has another shape in each band, bands are "
+        "sampled, or shadows are attenuated");
   Result out;
   out.seed = seed;
   out.threads = threads();

@@ -47,7 +47,7 @@ struct SceneText {
   std::string positions = "[[0, 0, 0]]";
   std::string sun{}, sky{};
   std::string sensor{};
-  std::string wavelengths_nm{};
+  std::string wavelengths_nm{}, bands{};  // the list, or the body of [bands]
   std::string sampling{};
 
   std::string str() const {
@@ -68,7 +68,7 @@ struct SceneText {
     }
     table("[illumination]", keyed("sun", sun) + keyed("sky", sky));
     table("[[sensors]]", sensor);
-    table("[bands]", keyed("wavelengths_nm", wavelengths_nm));
+    table("[bands]", keyed("wavelengths_nm", wavelengths_nm) + bands);
     table("[sampling]", sampling);
     return out;
   }

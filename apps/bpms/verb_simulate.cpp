@@ -18,6 +18,7 @@ struct SimulateArguments {
   std::string target_se;
   std::uint64_t samples = 0;
   bool image_origins = false;
+  bool keep_interactions = false;
 };
 
 // A picture beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
@@ -54,6 +55,7 @@ void run(const Cli& cli, const SimulateArguments& options) {
     simulation.sampling.samples = options.samples;
     simulation.sampling.target_se = 0;
   }
+  simulation.sampling.keep_interactions = options.keep_interactions;
   for (const std::string& line : simulation.scene.notes) note(line);
   Provenance from = provenance(cli, true);
   if (simulation.inputs.empty() || simulation.inputs.front() != options.scene) from.add_input(options.scene);
@@ -88,6 +90,8 @@ void add_simulate(Cli& cli) {
       ->excludes("--samples");
   verb->add_flag("--image-origins", options->image_origins,
                  "keep the pixels of images by origin of the light too: total, direct, diffuse");
+  verb->add_flag("--keep-interactions", options->keep_interactions,
+                 "keep the histogram of interactions, for bpms recolour");
 }
 
 }  // namespace bpms

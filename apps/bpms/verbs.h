@@ -10,5 +10,6 @@ void add_fit(Cli& cli);
 void add_build(Cli& cli);
 void add_describe(Cli& cli);
 void add_simulate(Cli& cli);
+void add_recolour(Cli& cli);
 void add_report(Cli& cli);
 }  // namespace bpms

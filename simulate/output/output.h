@@ -26,6 +26,11 @@ std::string sensor_identifier(const Simulation& simulation, std::size_t sensor);
 inline constexpr std::size_t split_bands = 8;
 std::string result_csv(const Simulation& simulation, const Result& result);
 
+// Derivatives of the reflectance by the value of each spectrum, in each view and band.
+struct Derivatives;
+std::string derivatives_csv(const Simulation& simulation, const Result& result,
+                            const Derivatives& derivatives);
+
 Json result_report(const Simulation& simulation, const Result& result);
 
 // Red, green, blue from the bands nearest to 650, 550 and 450 nm when they lie in the visible, else grey

@@ -5,6 +5,7 @@
 #include "core/csv.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
+#include "simulate/recolour/recolour.h"
 
 namespace bpms {
 namespace {
@@ -102,6 +103,26 @@ std::string result_csv(const Simulation& simulation, const Result& result) {
       add_fractions(simulation, sensor, view, rows);
     }
     out += rows.text;
+  }
+  return out;
+}
+
+std::string derivatives_csv(const Simulation& simulation, const Result& result,
+                            const Derivatives& derivatives) {
+  std::string out = "quantity,sensor,band,wavelength_nm,vza_deg,vaa_deg,by,value,standard_error\n";
+  const std::vector<double> scale = reflectance_scale(simulation, Origin::total);
+  const std::size_t factors = derivatives.factors.size();
+  for (std::size_t s = 0; s < result.sensors.size(); ++s) {
+    const Sensor& sensor = *result.sensors[s].sensor;
+    const char* quantity = reflectance_quantity(simulation.light, sensor).name;
+    for (std::size_t at = 0; at < derivatives.by_sensor[s].value.size(); ++at) {
+      const std::size_t view = at / factors / scale.size(), band = at / factors % scale.size();
+      out += fmt::format("{},{},{},{},{},{},{},{},{}\n", quantity, csv_field(sensor.name), band + 1,
+                         csv_number(simulation.bands.written_nm(band)), csv_number(sensor.vza_deg(view)),
+                         csv_number(sensor.vaa_deg(view)), csv_field(derivatives.factors[at % factors]),
+                         digits(derivatives.by_sensor[s].value[at] * scale[band], 7),
+                         digits(derivatives.by_sensor[s].standard_error[at] * scale[band], 3));
+    }
   }
   return out;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <set>
@@ -5,6 +6,7 @@
 #include "simulate/output/netcdf.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
+#include "simulate/recolour/recording.h"
 
 namespace bpms {
 namespace {
@@ -42,6 +44,7 @@ class SensorVariables {
     write_fractions();
     std::vector<long long> samples(result_.samples.begin(), result_.samples.end());
     file_.integers(prefix_ + "samples", views_, samples, {{"long_name", "paths traced"}});
+    if (!result_.histograms.empty()) write_histograms(result_, file_, prefix_, views_[0]);
     if (!result_.truncation.empty())
       file_.variable(
           prefix_ + "truncation_bias", with(views_, "band"), result_.truncation,
@@ -312,6 +315,9 @@ void write_netcdf(const Simulation& simulation, const Result& result, const Prov
     file.dimension("material", materials.size());
     file.words("material", "material", materials, {{"long_name", "material"}});
   }
+  if (std::any_of(result.sensors.begin(), result.sensors.end(),
+                  [](const SensorResult& sensor) { return !sensor.histograms.empty(); }))
+    write_recording(simulation, file);
   for (std::size_t i = 0; i < result.sensors.size(); ++i) {
     const std::string prefix = simulation.sensors.size() == 1 ? "" : sensor_identifier(simulation, i) + "_";
     SensorVariables(simulation, result.sensors[i], file, prefix, options).write();

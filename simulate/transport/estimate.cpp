@@ -108,8 +108,6 @@ double reached(const std::vector<BatchMeans>& means, const Sources& sources) {
   return worst;
 }
 
-namespace {
-
 void write_fractions(const std::vector<const ViewCounts*>& counts, std::size_t view, SensorResult& result) {
   const auto write = [&](Estimates& to, std::size_t index, auto count_of) {
     Moments moments(1);
@@ -130,12 +128,12 @@ void write_fractions(const std::vector<const ViewCounts*>& counts, std::size_t v
   write_all(result.shaded, &ViewCounts::shaded);
   write_all(result.lit_behind, &ViewCounts::lit_behind);
   write_all(result.sunlit_ground, &ViewCounts::sunlit_ground);
+  result.samples[view] = 0;
+  for (const ViewCounts* count : counts) result.samples[view] += count->paths;
 }
 
-}  // namespace
-
-void write_estimates(const std::vector<BatchMeans>& means, const std::vector<const ViewCounts*>& counts,
-                     const Sources& sources, std::size_t view, SensorResult& result) {
+void write_light(const std::vector<BatchMeans>& means, const Sources& sources, std::size_t view,
+                 SensorResult& result) {
   const std::size_t bands = sources.simulation->bands.written();
   std::vector<double> value(bands);
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
@@ -149,9 +147,6 @@ void write_estimates(const std::vector<BatchMeans>& means, const std::vector<con
       result.radiance[p].standard_error[view * bands + band] = moments.standard_error(band, means.size());
     }
   }
-  write_fractions(counts, view, result);
-  result.samples[view] = 0;
-  for (const ViewCounts* count : counts) result.samples[view] += count->paths;
 }
 
 void write_truncation(const Sampling& sampling, std::size_t bands, SensorResult& result) {

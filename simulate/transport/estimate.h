@@ -28,9 +28,10 @@ void part_of_batch(const Part& part, const BatchMeans& means, const Sources& sou
 // Smallest over bands of target / standard error of the total, from one BatchMeans a batch; >= 1: reached.
 double reached(const std::vector<BatchMeans>& means, const Sources& sources);
 
-// Writes a view's estimates into the result; `means` and `counts` hold one entry a batch.
-void write_estimates(const std::vector<BatchMeans>& means, const std::vector<const ViewCounts*>& counts,
-                     const Sources& sources, std::size_t view, SensorResult& result);
+// Write a view's light and its fractions into the result; `means` and `counts` hold one entry a batch.
+void write_light(const std::vector<BatchMeans>& means, const Sources& sources, std::size_t view,
+                 SensorResult& result);
+void write_fractions(const std::vector<const ViewCounts*>& counts, std::size_t view, SensorResult& result);
 
 // What the orders above max_order would add, from the decay of the last two (a geometric series); NaN where
 // unknown.

@@ -107,7 +107,8 @@ class ViewState {
   void finish(SensorResult& result) const {
     std::vector<const ViewCounts*> counts;
     for (const Tally& tally : tallies) counts.push_back(&tally.counts);
-    write_estimates(means(), counts, *sources_, view, result);
+    write_light(means(), *sources_, view, result);
+    write_fractions(counts, view, result);
     if constexpr (std::is_same_v<Tally, InteractionTally>)
       if (!result.histograms.empty()) result.histograms[view] = interaction_histogram(tallies);
   }
@@ -321,7 +322,7 @@ SensorResult run_sensor(Run& run, const Sensor& sensor) {
     fractions->resize(views * by_material);
   out.sunlit_ground.resize(views * suns);
   out.samples.assign(views, 0);
-  if (simulation.sampling.keep_interactions && optics.carriage == Carriage::counted)
+  if (simulation.sampling.keep_interactions && optics.carriage == Carriage::counted && !sensor.is_image())
     out.histograms.resize(views);
   const Sources sources(simulation);
   switch (optics.carriage) {

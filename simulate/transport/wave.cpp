@@ -460,7 +460,8 @@ bool Wave<Tally>::scatter(Path& path, int order) {
     // a factor that was measured on the homogeneous disc canopy: 1 (as absorption would do it) and 2 are
     // worse. The sky is seen by the ray that goes on from the first hit, which is then worth its cost.
     constexpr float factor = 1.6f;
-    const float survival = order == 0 && light_.sky ? 1.0f : factor * strength;
+    const float split = static_cast<float>(sampling_.diffuse_rays);  // of which each branch has its part
+    const float survival = order == 0 && light_.sky ? 1.0f : factor * split * strength;
     if (random.survival >= static_cast<double>(survival)) return false;
     if (survival < 1.0f) tallies_[path.batch]->scale(path.weight, 1.0f / survival);
   }
