@@ -80,8 +80,8 @@ TEST_F(Recolour, DerivativesAreThoseOfTheResult) {
   Derivatives derivatives;
   recoloured(table("leaf", bilambertian("0.4", "0.3")), 1, &derivatives);
   ASSERT_THAT(derivatives.factors,
-              testing::ElementsAre("leaf.reflectance", "leaf.reflectance_back", "leaf.transmittance",
-                                   "soil.reflectance", "soil.reflectance_back", "soil.transmittance"));
+              testing::ElementsAre("soil.reflectance", "soil.reflectance_back", "soil.transmittance",
+                                   "leaf.reflectance", "leaf.reflectance_back", "leaf.transmittance"));
   constexpr double h = 1e-4;
   const auto total = [&](double transmittance) {
     return recoloured(table("leaf", bilambertian("0.4", fmt::format("{:.9g}", transmittance))))
