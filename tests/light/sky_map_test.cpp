@@ -57,15 +57,12 @@ TEST(SkyMap, PowersOfTheCosineHaveClosedForms) {
 TEST(SkyMap, IsLinearBetweenItsPointsAndPeriodic) {
   const SkyMap map = map_of(4, 8, 2, uneven);
   std::vector<float> out(2), a(2), b(2);
-  for (std::size_t row = 0; row < 4; ++row)
+  for (std::size_t row = 1; row < 4; ++row)
     for (std::size_t column = 0; column < 8; ++column) {
-      const double zenith = radians(30.0 * static_cast<double>(row)),
-                   azimuth = radians(45.0 * static_cast<double>(column));
+      const double zenith = radians(30.0 * static_cast<double>(row));
+      const double azimuth = radians(45.0 * static_cast<double>(column));
       map.radiance(towards(zenith, azimuth), out);
-      if (row > 0) {
-        EXPECT_NEAR(out[1], uneven(zenith, azimuth, 1), 1e-5);
-      }
-      if (row == 0) continue;
+      EXPECT_NEAR(out[1], uneven(zenith, azimuth, 1), 1e-5);  // 32-bit angles
       const double next = azimuth + radians(45);
       map.radiance(towards(zenith, azimuth + radians(15)), out);
       map.radiance(towards(zenith, azimuth), a);
