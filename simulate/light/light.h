@@ -22,6 +22,7 @@ struct Sun {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
   double radius = 0;               // angular, of a disc of even radiance, in radians; 0: a direction
   std::vector<double> irradiance;  // on the plane normal to the sun's centre, per band
+  std::string model;               // the type of the sky that fills in the irradiance; empty: it is given
 };
 
 struct Sky {
@@ -43,10 +44,13 @@ struct LightContext {
   const Bands& bands;
   std::vector<std::string>& inputs;
   std::vector<std::string>& notes;
-  const std::vector<Sun>& suns;  // those read before the sky
+  std::vector<Sun>& suns;  // those read before the sky; a sky that models them fills in their irradiance
 };
 Sun read_sun(const TomlValue& table, const LightContext& context);
 Sky read_isotropic_sky(const TomlValue& table, const LightContext& context);
+Sky read_map_sky(const TomlValue& table, const LightContext& context);
+Sky read_zibordi_voss_sky(const TomlValue& table, const LightContext& context);
+Sky sky_of(std::shared_ptr<const SkyMap> map);
 Light read_light(const TomlValue& table, const Domain& domain, const Bands& bands,
                  std::vector<std::string>& inputs, std::vector<std::string>& notes);
 

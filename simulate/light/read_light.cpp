@@ -8,6 +8,8 @@ namespace {
 using SkyReader = Sky (*)(const TomlValue&, const LightContext&);
 const std::map<std::string, SkyReader> skies{
     {"isotropic", read_isotropic_sky},
+    {"map", read_map_sky},
+    {"zibordi_voss", read_zibordi_voss_sky},
 };
 
 // One table, or an array of them whose names differ.
@@ -27,19 +29,37 @@ std::vector<Sun> read_suns(const TomlValue& value, const LightContext& context) 
   }
   return out;
 }
+
+void require_irradiance(const TomlValue& value, const std::vector<Sun>& suns) {
+  for (std::size_t i = 0; i < suns.size(); ++i)
+    if (suns[i].irradiance.empty())
+      (value.is_array() ? value[i] : value)
+          .require("irradiance")
+          .reject(fmt::format("no sky of type \"{}\" belongs to sun \"{}\"", suns[i].model, suns[i].name));
+}
 }  // namespace
 
 Light read_light(const TomlValue& table, const Domain& domain, const Bands& bands,
                  std::vector<std::string>& inputs, std::vector<std::string>& notes) {
   Light out;
   const LightContext context{domain, bands, inputs, notes, out.suns};
-  if (const TomlValue sun = table.get("sun")) out.suns = read_suns(sun, context);
+  const TomlValue sun = table.get("sun");
+  if (sun) out.suns = read_suns(sun, context);
   if (const TomlValue sky = table.get("sky")) {
     std::vector<std::string> names;
     for (const auto& kind : skies) names.push_back(kind.first);
     out.sky = skies.at(sky.require("type").one_of(names))(sky, context);
   }
+  if (sun) require_irradiance(sun, out.suns);
   if (out.suns.empty() && !out.sky) table.reject("no light: expected a sun, a sky or both");
+  return out;
+}
+
+Sky sky_of(std::shared_ptr<const SkyMap> map) {
+  Sky out;
+  out.radiance = map->irradiance();
+  for (double& value : out.radiance) value /= pi;
+  out.map = std::move(map);
   return out;
 }
 

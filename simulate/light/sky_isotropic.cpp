@@ -1,4 +1,5 @@
 #include "core/units.h"
+#include "simulate/light/curve.h"
 #include "simulate/light/light.h"
 
 namespace bpms {
@@ -11,11 +12,11 @@ Sky read_isotropic_sky(const TomlValue& table, const LightContext& context) {
   if (static_cast<bool>(radiance) == static_cast<bool>(irradiance))
     table.reject_choice("expected one of radiance and irradiance (on the horizontal, or \"brf\")");
   if (radiance) {
-    out.radiance = read_spectrum(radiance, bands, 0.0, brightest, context.inputs);
+    out.radiance = read_source_spectrum(radiance, bands, context.inputs);
   } else if (irradiance.is_string() && irradiance.string() == "brf") {
     out.radiance.assign(bands.count(), 1.0);
   } else {
-    out.radiance = read_spectrum(irradiance, bands, 0.0, brightest, context.inputs);
+    out.radiance = read_source_spectrum(irradiance, bands, context.inputs);
     for (double& value : out.radiance) value /= pi;
   }
   return out;

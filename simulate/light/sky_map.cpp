@@ -2,108 +2,157 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/units.h"
 
 namespace bpms {
 namespace {
-constexpr double quarter = 0.5 * std::numbers::pi, turn = 2 * std::numbers::pi;
+
+// Integrals of sin cos and of angle sin cos from 0.
+double first_moment(double angle) {
+  return 0.25 * (1 - std::cos(2 * angle));
+}
+double second_moment(double angle) {
+  return 0.125 * std::sin(2 * angle) - 0.25 * angle * std::cos(2 * angle);
+}
+
+// The parts of one step of a cumulative distribution; the index of the step that holds u, and how far into
+// it.
+struct Step {
+  std::size_t index;
+  double fraction;
+};
+Step step_of(const double* cumulative, std::size_t count, double u) {
+  const double* at = std::upper_bound(cumulative, cumulative + count - 1, u);
+  const double before = at == cumulative ? 0 : at[-1];
+  const double width = *at - before;
+  return {static_cast<std::size_t>(at - cumulative),
+          width > 0 ? std::clamp((u - before) / width, 0.0, 1.0) : 0.5};
+}
+
 }  // namespace
 
 SkyMap::SkyMap(std::size_t zeniths, std::size_t azimuths, std::size_t bands, std::vector<float> radiance)
-    : zeniths_(zeniths),
-      azimuths_(azimuths),
-      bands_(bands),
-      radiance_(std::move(radiance)),
-      irradiance_(bands) {
-  // The midpoint rule on a fine grid: over the interpolated map its error is far below that of any table.
-  constexpr std::size_t fine_zeniths = 512, fine_azimuths = 720;
-  const double dz = quarter / fine_zeniths, da = turn / fine_azimuths;
-  std::vector<float> there(bands_);
-  for (std::size_t i = 0; i < fine_zeniths; ++i) {
-    const double z = (static_cast<double>(i) + 0.5) * dz, weight = std::sin(z) * std::cos(z) * dz * da;
-    for (std::size_t k = 0; k < fine_azimuths; ++k) {
-      const double a = (static_cast<double>(k) + 0.5) * da;
-      this->radiance(
-          Eigen::Vector3d(std::sin(z) * std::sin(a), std::sin(z) * std::cos(a), std::cos(z)).cast<float>(),
-          there);
-      for (std::size_t b = 0; b < bands_; ++b) irradiance_[b] += weight * static_cast<double>(there[b]);
-    }
+    : zeniths_(zeniths), azimuths_(azimuths), bands_(bands), radiance_(std::move(radiance)) {
+  if (zeniths_ < 2 || azimuths_ < 1 || bands_ < 1 || radiance_.size() != zeniths_ * azimuths_ * bands_)
+    fail(ErrorKind::internal, {}, "a sky map of {} x {} x {} with {} values", zeniths_, azimuths_, bands_,
+         radiance_.size());
+  integrate();
+  prepare_sampling();
+}
+
+double SkyMap::sine_squared(std::size_t row) const {
+  const double sine = std::sin(0.5 * pi * static_cast<double>(row) / static_cast<double>(zeniths_ - 1));
+  return sine * sine;
+}
+
+// A row weighs by the integral of its hat function (1 at its zenith, 0 at the neighbours) times sin cos.
+void SkyMap::integrate() {
+  irradiance_.assign(bands_, 0.0);
+  const double step = 0.5 * pi / static_cast<double>(zeniths_ - 1);
+  const double column_width = 2 * pi / static_cast<double>(azimuths_);
+  for (std::size_t row = 0; row < zeniths_; ++row) {
+    const double middle = step * static_cast<double>(row);
+    double weight = 0;
+    const auto slope = [&](double from, double to, double end) {  // |angle - end| / step between from and to
+      const double sign = end < middle ? 1.0 : -1.0;
+      return sign *
+             (second_moment(to) - second_moment(from) - end * (first_moment(to) - first_moment(from))) / step;
+    };
+    if (row > 0) weight += slope(middle - step, middle, middle - step);
+    if (row + 1 < zeniths_) weight += slope(middle, middle + step, middle + step);
+    for (std::size_t column = 0; column < azimuths_; ++column)
+      for (std::size_t band = 0; band < bands_; ++band)
+        irradiance_[band] += weight * column_width *
+                             static_cast<double>(radiance_[(row * azimuths_ + column) * bands_ + band]);
   }
-  row_cumulative_.assign(1, 0);
-  for (std::size_t row = 0; row + 1 < zeniths_; ++row) {
-    const double step = quarter / static_cast<double>(zeniths_ - 1), low = static_cast<double>(row) * step;
-    const double area = 0.5 * (std::pow(std::sin(low + step), 2) - std::pow(std::sin(low), 2)) * turn /
-                        static_cast<double>(azimuths_);
-    float sum = 0;
+}
+
+void SkyMap::prepare_sampling() {
+  std::vector<double> scale(bands_);
+  for (std::size_t band = 0; band < bands_; ++band)
+    scale[band] = irradiance_[band] > 0 ? 1 / irradiance_[band] : 0;
+  const bool black = std::all_of(scale.begin(), scale.end(), [](double s) { return s == 0; });
+  const auto brightness = [&](std::size_t row, std::size_t column) {
+    if (black) return 1.0;
+    const float* at = &radiance_[(row * azimuths_ + column % azimuths_) * bands_];
+    return std::inner_product(scale.begin(), scale.end(), at, 0.0, std::plus<>(),
+                              [](double s, float l) { return s * static_cast<double>(l); });
+  };
+  const std::size_t rows = zeniths_ - 1;
+  row_cumulative_.resize(rows);
+  cell_cumulative_.resize(rows * azimuths_);
+  double total = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double part = sine_squared(row + 1) - sine_squared(row);
+    double sum = 0;
+    double* cells = &cell_cumulative_[row * azimuths_];
     for (std::size_t column = 0; column < azimuths_; ++column) {
-      for (std::size_t b = 0; b < bands_; ++b) {
-        double mean = 0;
-        for (const std::size_t r : {row, row + 1})
-          for (const std::size_t c : {column, (column + 1) % azimuths_})
-            mean += 0.25 * static_cast<double>(radiance_[(r * azimuths_ + c) * bands_ + b]);
-        if (irradiance_[b] > 0)
-          sum += static_cast<float>(area * mean / irradiance_[b] / static_cast<double>(bands_));
-      }
-      cell_cumulative_.push_back(sum);
+      sum += brightness(row, column) + brightness(row, column + 1) + brightness(row + 1, column) +
+             brightness(row + 1, column + 1);
+      cells[column] = sum;
     }
-    row_cumulative_.push_back(row_cumulative_.back() + sum);
+    for (std::size_t column = 0; column < azimuths_; ++column)
+      cells[column] =
+          sum > 0 ? cells[column] / sum : static_cast<double>(column + 1) / static_cast<double>(azimuths_);
+    total += sum * part;
+    row_cumulative_[row] = total;
   }
+  for (double& value : row_cumulative_) value /= total;
+}
+
+SkyMap::Place SkyMap::place(const Eigen::Vector3f& towards) const {
+  constexpr auto quarter = static_cast<float>(pi / 2), turn = static_cast<float>(2 * pi);
+  const float zenith = std::atan2(std::hypot(towards.x(), towards.y()), std::max(towards.z(), 0.0f));
+  const float row = std::min(zenith / quarter, 1.0f) * static_cast<float>(zeniths_ - 1);
+  const float azimuth = std::atan2(towards.x(), towards.y()) / turn;
+  const float column = (azimuth < 0 ? azimuth + 1 : azimuth) * static_cast<float>(azimuths_);
+  Place out{};
+  out.row = std::min(static_cast<std::size_t>(row), zeniths_ - 2);
+  out.below = row - static_cast<float>(out.row);
+  out.column = std::min(static_cast<std::size_t>(column), azimuths_ - 1);
+  out.beyond = std::min(column - static_cast<float>(out.column), 1.0f);
+  return out;
 }
 
 void SkyMap::radiance(const Eigen::Vector3f& towards, std::span<float> out) const {
-  const double zenith = std::acos(std::clamp(static_cast<double>(towards.z()), 0.0, 1.0));
-  double azimuth = std::atan2(towards.x(), towards.y());
-  if (azimuth < 0) azimuth += turn;
-  const double row = zenith / quarter * static_cast<double>(zeniths_ - 1);
-  const double column = azimuth / turn * static_cast<double>(azimuths_);
-  const std::size_t r = std::min(zeniths_ - 2, static_cast<std::size_t>(row));
-  const std::size_t c = static_cast<std::size_t>(column) % azimuths_;
-  const auto s = static_cast<float>(row - static_cast<double>(r)),
-             t = static_cast<float>(column - std::floor(column));
-  const float* a = &radiance_[(r * azimuths_ + c) * bands_];
-  const float* b = &radiance_[(r * azimuths_ + (c + 1) % azimuths_) * bands_];
-  const std::size_t below = azimuths_ * bands_;
-  for (std::size_t k = 0; k < bands_; ++k)
-    out[k] = (1 - s) * ((1 - t) * a[k] + t * b[k]) + s * ((1 - t) * a[k + below] + t * b[k + below]);
+  const Place at = place(towards);
+  const std::size_t next = at.column + 1 == azimuths_ ? 0 : at.column + 1;
+  const float* upper = &radiance_[at.row * azimuths_ * bands_];
+  const float* lower = upper + azimuths_ * bands_;
+  const std::size_t a = at.column * bands_, b = next * bands_;
+  const float wa = (1 - at.below) * (1 - at.beyond), wb = (1 - at.below) * at.beyond;
+  const float wc = at.below * (1 - at.beyond), wd = at.below * at.beyond;
+  for (std::size_t band = 0; band < std::min(bands_, out.size()); ++band)
+    out[band] = wa * upper[a + band] + wb * upper[b + band] + wc * lower[a + band] + wd * lower[b + band];
 }
 
-// A cell in proportion to what it gives, then evenly over its part of the horizontal.
-Eigen::Vector3f SkyMap::sample(float u, float v) const {
-  const float at = u * row_cumulative_.back();
-  const auto above = std::upper_bound(row_cumulative_.begin() + 1, row_cumulative_.end() - 1, at);
-  const auto row = static_cast<std::size_t>(above - row_cumulative_.begin()) - 1;
-  const float in_row = row_cumulative_[row + 1] - row_cumulative_[row];
-  const float* cells = &cell_cumulative_[row * azimuths_];
-  const float left = v * cells[azimuths_ - 1];
-  const auto column = static_cast<std::size_t>(std::upper_bound(cells, cells + azimuths_ - 1, left) - cells);
-  const float before = column > 0 ? cells[column - 1] : 0.0f;
-  const double s = std::clamp(static_cast<double>((at - row_cumulative_[row]) / in_row), 0.0, 1.0);
-  const double t = std::clamp(static_cast<double>((left - before) / (cells[column] - before)), 0.0, 1.0);
-  const double step = quarter / static_cast<double>(zeniths_ - 1), low = static_cast<double>(row) * step;
-  const double from = std::pow(std::sin(low), 2), to = std::pow(std::sin(low + step), 2);
-  const double sine2 = from + s * (to - from), sine = std::sqrt(sine2);
-  const double azimuth = (static_cast<double>(column) + t) * turn / static_cast<double>(azimuths_);
+Eigen::Vector3f SkyMap::sample(double u, double v) const {
+  const Step row = step_of(row_cumulative_.data(), row_cumulative_.size(), u);
+  const Step cell = step_of(&cell_cumulative_[row.index * azimuths_], azimuths_, v);
+  const double low = sine_squared(row.index), high = sine_squared(row.index + 1);
+  const double sine2 = low + row.fraction * (high - low);
+  const double azimuth =
+      2 * pi * (static_cast<double>(cell.index) + cell.fraction) / static_cast<double>(azimuths_);
+  const double sine = std::sqrt(sine2);
   return Eigen::Vector3d(sine * std::sin(azimuth), sine * std::cos(azimuth),
                          std::sqrt(std::max(0.0, 1 - sine2)))
       .cast<float>();
 }
 
+// The chance of the cell over its part of the hemisphere, pi sin^2 being the whole; times the cosine.
 float SkyMap::pdf(const Eigen::Vector3f& towards) const {
-  if (towards.z() <= 0) return 0;
-  const double zenith = std::acos(std::clamp(static_cast<double>(towards.z()), 0.0, 1.0));
-  double azimuth = std::atan2(towards.x(), towards.y());
-  if (azimuth < 0) azimuth += turn;
-  const double step = quarter / static_cast<double>(zeniths_ - 1);
-  const std::size_t row = std::min(zeniths_ - 2, static_cast<std::size_t>(zenith / step));
-  const std::size_t column =
-      std::min(azimuths_ - 1, static_cast<std::size_t>(azimuth / turn * static_cast<double>(azimuths_)));
-  const float* cells = &cell_cumulative_[row * azimuths_];
-  const double chance = static_cast<double>(cells[column] - (column > 0 ? cells[column - 1] : 0.0f)) /
-                        static_cast<double>(row_cumulative_.back());
-  const double low = static_cast<double>(row) * step;
-  const double area = 0.5 * (std::pow(std::sin(low + step), 2) - std::pow(std::sin(low), 2)) * turn /
-                      static_cast<double>(azimuths_);
-  return static_cast<float>(chance / area) * towards.z();
+  if (!(towards.z() > 0)) return 0;
+  const Place at = place(towards);
+  const auto chance = [](const double* cumulative, std::size_t i) {
+    return cumulative[i] - (i == 0 ? 0 : cumulative[i - 1]);
+  };
+  const double part = (sine_squared(at.row + 1) - sine_squared(at.row)) * pi / static_cast<double>(azimuths_);
+  const double cell =
+      chance(row_cumulative_.data(), at.row) * chance(&cell_cumulative_[at.row * azimuths_], at.column);
+  return static_cast<float>(cell / part * static_cast<double>(towards.z()));
 }
 
 }  // namespace bpms

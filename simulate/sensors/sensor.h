@@ -1,7 +1,7 @@
-// Sensors as sources of rays. A view is a direction of a `brf` sensor, a pixel of an image, a ray of a list;
-// each has its own estimate, the mean of what its rays see. `start` maps random numbers to the view's rays:
-// origin and direction of travel (away from the sensor). To add a kind: its own file with a reader and a line
-// in the table of read_sensor.cpp.
+// Sensors as sources of rays. A view is a direction of a `brf` sensor, a pixel of an image, a line of sight
+// of a list; each has its own estimate, the mean of what its rays see. `start` maps random numbers to the
+// view's rays: origin and direction of travel (away from the sensor). To add a kind: its own file with a
+// reader and a line in a table of read_sensor.cpp.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -39,6 +39,8 @@ class Sensor {
   virtual std::size_t views() const = 0;
   virtual Ray start(std::size_t view, const SensorNumbers& random, const Extent& extent) const = 0;
   virtual bool uses_aperture() const { return false; }  // (s, t) too
+  // False for the corners of a picture that are no part of the image: they have no estimate.
+  virtual bool covers(std::size_t) const { return true; }
   virtual Measures measures() const { return Measures::radiance; }
   // Of a receiver of irradiance: the unit normal of the face that receives; the sun shines on it directly
   // too.
@@ -64,6 +66,21 @@ struct SensorContext {
 using SensorReader = std::unique_ptr<Sensor> (*)(const TomlValue& table, const SensorContext& context);
 std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const SensorContext& context);
 std::unique_ptr<Sensor> read_perspective_sensor(const TomlValue& table, const SensorContext& context);
+std::unique_ptr<Sensor> read_orthographic_sensor(const TomlValue& table, const SensorContext& context);
+std::unique_ptr<Sensor> read_spherical_sensor(const TomlValue& table, const SensorContext& context);
+std::unique_ptr<Sensor> read_albedo_sensor(const TomlValue& table, const SensorContext& context);
+std::unique_ptr<Sensor> read_radiometer_sensor(const TomlValue& table, const SensorContext& context);
+std::unique_ptr<Sensor> read_ray_list_sensor(const TomlValue& table, const SensorContext& context);
+
+// A kind that stands for several sensors, such as the pictures along a boom; their names come back as what
+// follows the table's own.
+using SensorList = std::vector<std::unique_ptr<Sensor>>;
+using SeriesReader = SensorList (*)(const TomlValue& table, const SensorContext& context);
+SensorList read_boom_sensors(const TomlValue& table, const SensorContext& context);
+
+// What one [[sensors]] table stands for, at least one sensor.
+SensorList read_sensors(const TomlValue& table, const SensorContext& context);
+// The same where it is one sensor; a series is refused.
 std::unique_ptr<Sensor> read_sensor(const TomlValue& table, const SensorContext& context);
 
 }  // namespace bpms
