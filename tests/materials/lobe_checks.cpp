@@ -128,19 +128,19 @@ class LobeCheck {
     const auto u = static_cast<float>(random_.uniform()), v = static_cast<float>(random_.uniform());
     return lobe_.lobe->sample(view_, std::min(u, 1 - 1e-7f), std::min(v, 1 - 1e-7f), light);
   }
-  // Uniform in azimuth and in the square root of the cosine, which gathers points at the horizon.
+  // Midpoints, uniform in zenith and azimuth.
   std::vector<double> quadrature() const {
     constexpr int n = 400;
     std::vector<double> out(bands_, 0.0);
     for (const double side : {1.0, -1.0})
       for (int i = 0; i < n; ++i)
         for (int k = 0; k < n; ++k) {
-          const double root = (i + 0.5) / n, cosine = root * root, azimuth = 2 * pi * (k + 0.5) / n;
-          const double sine = std::sqrt(1 - cosine * cosine);
+          const double zenith = pi / 2 * (i + 0.5) / n, azimuth = 2 * pi * (k + 0.5) / n;
+          const double sine = std::sin(zenith), cosine = std::cos(zenith);
           const Eigen::Vector3d light(sine * std::cos(azimuth), sine * std::sin(azimuth), side * cosine);
           const std::vector<double> values = values_of(lobe_, view_, light.cast<float>(), bands_);
           for (std::size_t band = 0; band < bands_; ++band)
-            out[band] += values[band] * cosine * 2 * root * 2 * pi / (n * n);
+            out[band] += values[band] * cosine * sine * pi / 2 * 2 * pi / (n * n);
         }
     return out;
   }
