@@ -1,6 +1,8 @@
 // PROSPECT: its plates against series and layers added one by one, its constituents, its table.
 #include "simulate/materials/prospect_leaf.h"
 
+#include <algorithm>
+
 #include "core/text.h"
 #include "simulate/materials/dielectric_surface.h"
 #include "simulate/materials/exponential_integral.h"
@@ -91,6 +93,32 @@ class ProspectLeaf : public ::testing::Test {
   }
 };
 const std::string green = "cab_ug_cm2 = 40\ncar_ug_cm2 = 8\ncw_cm = 0.012\ncm_g_cm2 = 0.007\n";
+
+// The authors' own program (prospect_pro_matlab, main_Run_PROSPECT_PRO) for N = 1.2, Cab = 30, Car = 10, Ant
+// = 1, Cw = 0.015, Cm = 0.009, Prot = 0.001, CBC = 0.009: dry matter counted twice, which our reader refuses.
+TEST_F(ProspectLeaf, HasThePublishedSpectrum) {
+  BPMS_NEED_DATA(pro_table);
+  const ProspectTable table = read_prospect_table(data_folder() + "/" + pro_table);
+  const LeafContent content{30, 10, 1, 0, 0.015, 0.009, 0.001, 0.009};
+  struct Row {
+    double nm, reflectance, transmittance;
+  };
+  const Row rows[] = {
+      {400, 0.0430792297170304, 0.000186638539586644}, {450, 0.04106687462002674, 0.002512630004713102},
+      {550, 0.1200014983311994, 0.1836195824526825},   {700, 0.1225037099859695, 0.2011863964659245},
+      {760, 0.3417998973144463, 0.4813716047430826},   {1940, 0.02205985629556384, 0.02437338827249286},
+      {2200, 0.06653712765501169, 0.184473865392991}};
+  for (const Row& row : rows) {
+    const auto at =
+        static_cast<std::size_t>(std::find(table.nm.begin(), table.nm.end(), row.nm) - table.nm.begin());
+    ASSERT_LT(at, table.nm.size());
+    double k = 0;
+    for (std::size_t i = 0; i < leaf_constituents; ++i) k += content[i] * table.absorption[i][at] / 1.2;
+    const LeafOptics leaf = prospect_leaf(1.2, table.refractive_index[at], k, cone);
+    EXPECT_NEAR(leaf.reflectance, row.reflectance, 1e-10) << row.nm;
+    EXPECT_NEAR(leaf.transmittance, row.transmittance, 1e-10) << row.nm;
+  }
+}
 
 TEST_F(ProspectLeaf, GivesOutNoMoreThanItReceivesAnywhere) {
   BPMS_NEED_DATA(pro_table);
