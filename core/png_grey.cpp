@@ -79,6 +79,9 @@ GreyImage decode_grey_png(const std::string& bytes, const SourceLocation& where,
     bad_input(where, "a picture of {} x {} pixels: expected at least one and at most {}", reading.width,
               reading.height, most_pixels);
   const std::size_t row_bytes = png_get_rowbytes(reading.png, reading.info);
+  constexpr std::size_t most_packed = 1100;  // deflate's 1032 and some: what no file of this size can hold
+  if (row_bytes * reading.height / most_packed > bytes.size())
+    bad_input(where, "PNG: {} bytes cannot hold {} x {} pixels", bytes.size(), reading.width, reading.height);
   reading.bytes.resize(row_bytes * reading.height);
   for (std::size_t row = 0; row < reading.height; ++row)
     reading.rows.push_back(reading.bytes.data() + row * row_bytes);

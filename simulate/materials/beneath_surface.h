@@ -15,14 +15,29 @@ namespace bpms {
 // 1 - A over the cosine, in nodes as RoughSpecular::albedo has them; one set, or one for each band.
 class EnteringLight {
  public:
-  EnteringLight() : sets_{std::vector<float>(2, 1.0f)}, mean_{1.0} {}  // a bare face: all enters
+  EnteringLight() : nodes_(2, {1.0f}), mean_{1.0} {}  // a bare face: all enters
   explicit EnteringLight(const std::vector<std::vector<double>>& albedo);
-  std::size_t sets() const { return sets_.size(); }
-  float part(float cosine, std::size_t set) const;
-  double mean(std::size_t set) const { return mean_[sets_.size() == 1 ? 0 : set]; }  // N
+  std::size_t sets() const { return mean_.size(); }
+  double mean(std::size_t set) const { return mean_[sets() == 1 ? 0 : set]; }  // N
+
+  // At one cosine, for any set.
+  class At {
+   public:
+    At(const EnteringLight& light, float cosine);
+    float operator()(std::size_t set) const {
+      const std::size_t i = one_ ? 0 : set;
+      return low_[i] + t_ * (high_[i] - low_[i]);
+    }
+
+   private:
+    bool one_;
+    const float* low_;
+    const float* high_;
+    float t_;
+  };
 
  private:
-  std::vector<std::vector<float>> sets_;
+  std::vector<std::vector<float>> nodes_;  // by node, each by set
   std::vector<double> mean_;
 };
 
@@ -41,8 +56,6 @@ class BeneathSurface : public Lobe {
 
  private:
   bool on_its_side(const Eigen::Vector3f& light) const { return (light.z() < 0) == transmits_; }
-  float of_set(const Eigen::Vector3f& view, const Eigen::Vector3f& light, std::size_t set) const;
-
   std::shared_ptr<const EnteringLight> view_face_, light_face_;
   bool transmits_;
   std::vector<float> scattered_;

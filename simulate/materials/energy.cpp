@@ -80,16 +80,17 @@ std::vector<double> directional_albedo(const SurfaceLobe& lobe, const Eigen::Vec
 
 void require_energy(Material& material, const TomlValue& table, const Bands& bands) {
   if (material.map) return;  // its materials were looked at
-  bool finite = false, empirical = false;
+  bool finite = false, empirical = false, same_faces = material.reflectance[0] == material.reflectance[1];
   for (const SurfaceLobe& lobe : material.lobes) {
     finite |= !lobe.lobe->is_delta();
     empirical |= lobe.lobe->empirical();
+    same_faces &= lobe.on_face[0] && lobe.on_face[1];
   }
   // Doubles round 0.3 + 0.7 and its like; the albedo of a lobe is good to the other.
   const double rounding = finite ? 1e-3 : 1e-9;
   double worst = 1 + rounding, worst_deg = 0;
   std::size_t worst_band = 0;
-  for (int face = 0; face < 2; ++face) {
+  for (int face = 0; face < (same_faces ? 1 : 2); ++face) {
     const std::vector<double>& reflectance = material.reflectance[static_cast<std::size_t>(face)];
     for (const double zenith_deg : energy_angles_deg) {
       const Eigen::Vector3f light(static_cast<float>(std::sin(radians(zenith_deg))), 0,

@@ -8,7 +8,7 @@
 namespace bpms {
 
 inline constexpr int most_raster_value = 65535;
-inline constexpr std::size_t most_raster_pixels = std::size_t{1} << 28;
+inline constexpr std::size_t most_raster_pixels = std::size_t{1} << 26;
 
 // Integers from 0 to 65535 as they stand in the file; in CSV too.
 Raster read_integers(const std::string& path);
