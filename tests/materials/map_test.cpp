@@ -1,4 +1,5 @@
 // Material maps and bumps in the file.
+#include "simulate/simulate.h"
 #include "tests/materials/materials_of.h"
 
 namespace bpms::test {
@@ -47,6 +48,20 @@ TEST_F(MapFiles, NameMaterialsByValue) {
   for (const float index : leaf.map->values())
     names.push_back(leaf.map_materials.at(static_cast<std::size_t>(index)));
   EXPECT_THAT(names, ::testing::ElementsAre("lamina", "vein", "hole", "lamina"));
+}
+
+TEST_F(MapFiles, BringTheirMaterialsIntoTheScene) {
+  const std::string scene =
+      blade +
+      "file = \"two.pgm\"\nmaterials = [\"lamina\", \"vein\"]\n"
+      "[ground]\ntype = \"plane\"\nmaterial = \"leaf\"\n[domain]\nsize_m = [1, 1]\n"
+      "[illumination]\nsky = { type = \"isotropic\", radiance = 1.0 }\n"
+      "[[sensors]]\nname = \"a\"\ntype = \"brf\"\nviews = [[0, 0]]\n[sampling]\nsamples = 64\n";
+  const Simulation simulation = parse_simulation(folder_ / "scene.toml", scene);
+  EXPECT_THAT(simulation.scene.materials, ::testing::ElementsAre("leaf", "lamina", "vein"));
+  ASSERT_EQ(simulation.materials.size(), 3u);
+  EXPECT_TRUE(simulation.materials[0].map);
+  EXPECT_EQ(simulation.materials[2].name, "vein");
 }
 
 TEST_F(MapFiles, WithMistakesGetOneLine) {

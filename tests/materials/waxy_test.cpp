@@ -1,4 +1,6 @@
 // Leaves with a shiny surface: Fresnel, facets, and what is scattered beneath.
+#include <tuple>
+
 #include "simulate/materials/dielectric_surface.h"
 #include "simulate/materials/rough_specular.h"
 #include "tests/materials/lobe_checks.h"
@@ -41,6 +43,46 @@ TEST(WaxyLeaf, ShinesStraightBackAsFacetsThatAreLevel) {
   EXPECT_NEAR(values_of(lobe, direction(0, 0), direction(0, 0), 1)[0], straight / (4 * pi * 0.09), 1e-6);
   EXPECT_TRUE(lobe.lobe->separable());
   EXPECT_FALSE(material_of(leaf + spectral + ggx, {600, 700}).lobes.at(0).lobe->separable());
+}
+
+// The area of facets that face a direction, seen along it: Smith's masking follows from it alone, 1 + Lambda
+// = area / cosine. Facets' density over h, by slopes.
+double facets_of(bool gaussian, double alpha, double cosine) {
+  const double tangent2 = (1 / (cosine * cosine) - 1) / (alpha * alpha), c4 = std::pow(cosine, 4);
+  return (gaussian ? std::exp(-tangent2) : 1 / ((1 + tangent2) * (1 + tangent2))) / (pi * alpha * alpha * c4);
+}
+double one_plus_lambda(bool gaussian, double alpha, double zenith) {
+  double sum = 0;
+  constexpr int n = 1500;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      const double h = pi / 2 * (i + 0.5) / n, azimuth = pi * (k + 0.5) / n;
+      const double facing =
+          std::sin(zenith) * std::sin(h) * std::cos(azimuth) + std::cos(zenith) * std::cos(h);
+      if (facing > 0)
+        sum += facets_of(gaussian, alpha, std::cos(h)) * facing * std::sin(h) * pi * pi / (n * n);
+    }
+  return sum / std::cos(zenith);
+}
+
+TEST(WaxyLeaf, MasksItsFacetsAsSmithSays) {
+  constexpr double alpha = 0.4;
+  for (const bool gaussian : {false, true}) {
+    const RoughSpecular shine(gaussian ? FacetSlopes::beckmann : FacetSlopes::ggx, alpha, {1.5}, true);
+    for (const auto& [view_deg, light_deg, azimuth_deg] :
+         {std::tuple{0.0, 40.0, 0.0}, {30.0, 60.0, 180.0}, {70.0, 80.0, 150.0}, {75.0, 20.0, 60.0}}) {
+      const Eigen::Vector3d view = direction(view_deg, 0).cast<double>(),
+                            light = direction(light_deg, azimuth_deg).cast<double>();
+      const Eigen::Vector3d h = (view + light).normalized();
+      const double seen = 1 / (one_plus_lambda(gaussian, alpha, radians(view_deg)) +
+                               one_plus_lambda(gaussian, alpha, radians(light_deg)) - 1);
+      const double expected = fresnel_reflectance(view.dot(h), 1.5) * facets_of(gaussian, alpha, h.z()) *
+                              seen / (4 * view.z() * light.z());
+      // The integral's midpoints, at the edge of what faces the view.
+      EXPECT_NEAR(shine.shape(view.cast<float>(), light.cast<float>()), expected, 2e-4 * expected)
+          << view_deg << " " << light_deg;
+    }
+  }
 }
 
 TEST(WaxyLeaf, IsAlmostAMirrorWhereItIsAlmostSmooth) {
