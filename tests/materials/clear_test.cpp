@@ -69,5 +69,27 @@ TEST(Spectra, WithMistakesGetOneLine) {
   }
 }
 
+TEST(Spectra, InFilesWithMistakesGetOneLine) {
+  struct Case {
+    const char* file;
+    const char* message;
+  };
+  const Case cases[] = {
+      {"nm,rho\n400,0.1\n900,nan\n", "s.csv:3:5: expected a wavelength in nm and a value"},
+      {"nm,rho\n400,-0.1\n900,-0.1\n", "reflectance in band 1 (650 nm) is -0.1"},
+      {"nm,rho\n900,0.1\n400,0.1\n", "s.csv:3:"},
+      {"nm,rho\n700,0.1\n900,0.1\n", "does not hold band 1 (650 nm)"},
+      {"nm,rho\n", "s.csv"},
+      {"nm,rho\n400\n", "s.csv:2:"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.file);
+    const TemporaryFolder folder;
+    folder.write("s.csv", c.file);
+    BPMS_EXPECT_ERROR(material_of(folder, "type = \"srm\"\nreflectance = \"s.csv\""), ErrorKind::bad_input,
+                      c.message);
+  }
+}
+
 }  // namespace
 }  // namespace bpms::test
