@@ -151,6 +151,8 @@ TEST(Soils, DrawWhatTheySay) {
       "type = \"rpv\"\nrho0 = [[600, 0.08], [700, 0.2]]\nk = [[600, 0.4], [700, 1.1]]\n"
       "theta = [[600, -0.3], [700, 0.1]]\nrhoc = 1.0\n",
       {.largest_weight = 5});
+  check("type = \"rpv\"\nrho0 = 0.02\nk = 0.6\ntheta = -0.6\nrhoc = 0.0\n",
+        {.largest_weight = 5});  // far from flat
   check(soil_hapke, {.largest_weight = 4});
   check(soil_vpd, {.largest_weight = 4, .reciprocal = false});
   check(soil_vpd + "kappa = \"dickinson\"\nchi = 0.4\nmultiple_scattering = false\n",
