@@ -1,8 +1,11 @@
-// 8-bit RGB pictures as PNG.
+// Pictures as PNG: 8-bit RGB out, numbers of one channel in.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "core/error.h"
 
 namespace bpms {
 struct RgbImage {
@@ -11,4 +14,14 @@ struct RgbImage {
   std::vector<std::uint8_t> rgb;  // rows from the top, 3 bytes a pixel
 };
 std::string encode_png(const RgbImage& image);  // the file's bytes
+
+// One number a pixel, as it stands in the file: grey of 1 to 16 bits, or the index into a palette.
+struct GreyImage {
+  int width = 0;
+  int height = 0;
+  int full_scale = 255;               // 2^bits - 1
+  std::vector<std::uint16_t> values;  // rows from the top
+};
+// bad_input at `where`: a truncated or damaged file, a picture in colours, more than `most_pixels`.
+GreyImage decode_grey_png(const std::string& bytes, const SourceLocation& where, std::size_t most_pixels);
 }  // namespace bpms

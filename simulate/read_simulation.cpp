@@ -1,4 +1,4 @@
-#include <map>
+#include <algorithm>
 
 #include "core/text.h"
 #include "simulate/simulate.h"
@@ -43,16 +43,21 @@ Sampling read_sampling(const TomlValue& table) {
   return out;
 }
 
-std::vector<Material> read_materials(const TomlValue& table, const Scene& scene, const Bands& bands,
+// In the order of scene.materials. The materials of maps come after those that geometry names.
+std::vector<Material> read_materials(const TomlValue& table, Scene& scene, const Bands& bands,
                                      std::vector<std::string>& inputs) {
-  std::map<std::string, Material> known;
+  MaterialContext context(table, bands, inputs);
   if (table)
-    for (const std::string& name : table.keys())
-      known[name] = read_material(table.require(name), name, bands, inputs);
+    for (const std::string& name : table.keys()) context.material(name, table.require(name));
   std::vector<Material> out;
-  for (const std::string& name : scene.materials) {
-    if (!known.contains(name)) table.reject(fmt::format("no [materials.{}], which the geometry uses", name));
-    out.push_back(known.at(name));
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const std::string name = scene.materials[i];
+    if (!context.has(name)) table.reject(fmt::format("no [materials.{}], which the geometry uses", name));
+    out.push_back(context.material(name, table));
+    scene.notes.insert(scene.notes.end(), out.back().notes.begin(), out.back().notes.end());
+    for (const std::string& part : out.back().map_materials)
+      if (std::find(scene.materials.begin(), scene.materials.end(), part) == scene.materials.end())
+        scene.materials.push_back(part);
   }
   return out;
 }

@@ -4,13 +4,12 @@
 
 namespace bpms {
 
-Material read_bilambertian(const TomlValue& table, const Bands& bands, std::vector<std::string>& inputs) {
-  Material out;
+Material read_bilambertian(const TomlValue& table, MaterialContext& context) {
+  Material out = black_material(context.bands(), false);
   const TomlValue back = table.get("reflectance_back");
-  out.reflectance[0] = read_spectrum(table.require("reflectance"), bands, 0.0, 1.0, inputs);
-  out.reflectance[1] = back ? read_spectrum(back, bands, 0.0, 1.0, inputs) : out.reflectance[0];
-  out.transmittance = read_spectrum(table.require("transmittance"), bands, 0.0, 1.0, inputs);
-  out.opaque = false;
+  out.reflectance[0] = context.spectrum(table.require("reflectance"), 0.0, 1.0);
+  out.reflectance[1] = back ? context.spectrum(back, 0.0, 1.0) : out.reflectance[0];
+  out.transmittance = context.spectrum(table.require("transmittance"), 0.0, 1.0);
   return out;
 }
 

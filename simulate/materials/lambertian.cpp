@@ -3,12 +3,10 @@
 
 namespace bpms {
 
-Material read_lambertian(const TomlValue& table, const Bands& bands, std::vector<std::string>& inputs) {
-  Material out;
-  out.reflectance[0] = read_spectrum(table.require("reflectance"), bands, 0.0, 1.0, inputs);
+Material read_lambertian(const TomlValue& table, MaterialContext& context) {
+  Material out = black_material(context.bands(), true);
+  out.reflectance[0] = context.spectrum(table.require("reflectance"), 0.0, 1.0);
   out.reflectance[1] = out.reflectance[0];
-  out.transmittance.assign(bands.count(), 0.0);
-  out.opaque = true;
   return out;
 }
 

@@ -23,6 +23,7 @@ class Raster {
   Sloped bilinear(const Eigen::Vector2f& uv) const;
 
  private:
+  float at(std::size_t column, std::size_t row) const { return values_[row * columns_ + column]; }
   std::size_t columns_, rows_;
   std::vector<float> values_;
 };

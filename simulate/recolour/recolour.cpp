@@ -108,10 +108,10 @@ Simulation recoloured_simulation(const Recording& recording, const std::string& 
         traced.scene.materials.end())
       materials.require(name).reject(
           fmt::format("nothing that was traced is of material {}", in_quotes(name)));
+  MaterialContext context(materials, out.bands, out.inputs);
   for (const Material& material : traced.materials) {
     if (materials.has(material.name)) {
-      out.materials.push_back(
-          read_material(materials.require(material.name), material.name, out.bands, out.inputs));
+      out.materials.push_back(context.material(material.name, materials.require(material.name)));
     } else if (bands) {
       materials.reject(fmt::format("no [materials.{}]: with other [bands] each material needs its spectra",
                                    material.name));

@@ -69,6 +69,26 @@ SurfaceOptics make_surface(const Material& material, const Simulation& simulatio
   return out;
 }
 
+std::vector<SurfaceMaps> make_maps(const Simulation& simulation) {
+  std::vector<SurfaceMaps> out;
+  bool any = false;
+  for (const Material& material : simulation.materials) {
+    SurfaceMaps& maps = out.emplace_back();
+    maps.map = material.map.get();
+    maps.bump = material.bump.get();
+    maps.bump_m = static_cast<float>(material.bump_m);
+    any = any || maps.map != nullptr || maps.bump != nullptr;
+    for (const std::string& name : material.map_materials) {
+      const auto same = [&](const Material& other) { return other.name == name; };
+      const auto found = std::find_if(simulation.materials.begin(), simulation.materials.end(), same);
+      if (found == simulation.materials.end()) fail(ErrorKind::internal, {}, "no material {}", name);
+      maps.materials.push_back(static_cast<std::uint32_t>(found - simulation.materials.begin()));
+    }
+  }
+  if (!any) out.clear();
+  return out;
+}
+
 Carriage choose_carriage(const Simulation& simulation, const Optics& optics) {
   if (simulation.bands.sampled) return Carriage::sampled;
   bool separable =
@@ -92,8 +112,8 @@ Optics make_optics(const Simulation& simulation) {
   for (const Material& material : simulation.materials) {
     out.surfaces.push_back(make_surface(material, simulation, out));
     out.lets_through = out.lets_through || out.surfaces.back().lets_through;
-    out.needs_uv = out.needs_uv || material.map || material.bump;
   }
+  out.maps = make_maps(simulation);
   out.carriage = choose_carriage(simulation, out);
   out.lane_bands = lane_bands(out);
   for (const auto& spectrum : out.spectra) {

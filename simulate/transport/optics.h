@@ -62,6 +62,14 @@ struct SurfaceOptics {
   bool lets_through = false;  // a shadow ray, weakened: has a straight lobe, or shadows are attenuated
 };
 
+// Of a material whose properties change over (U,V).
+struct SurfaceMaps {
+  const Raster* map = nullptr;
+  std::vector<std::uint32_t> materials;  // by the map's integers
+  const Raster* bump = nullptr;
+  float bump_m = 0;
+};
+
 // How the bands travel with a path.
 enum class Carriage {
   carried,   // all of them, one a lane
@@ -78,8 +86,8 @@ struct Optics {
   std::vector<std::size_t> lane_bands;       // which traced band a lane stands for
   std::size_t bands = 1;                     // traced
   Carriage carriage = Carriage::carried;
-  bool lets_through = false;  // some surface does
-  bool needs_uv = false;      // some material has a map or a bump
+  bool lets_through = false;      // some surface does
+  std::vector<SurfaceMaps> maps;  // by material; empty where none has any
 };
 Optics make_optics(const Simulation& simulation);
 

@@ -197,10 +197,19 @@ bool Wave<Tally>::meet(Path& path, int order) {
   if (sampling_.interpolated_normals) path.shading = hit.shading_normal;
   path.surface = hit.id;
   path.extent = hit.extent;
-  path.material = hit.material;
+  path.material = material_at(hit);
   path.front = hit.front;
   path.ground = hit.ground;
   return true;
+}
+
+// What the surface is made of where it was hit.
+template <class Tally>
+std::uint32_t Wave<Tally>::material_at(const Hit& hit) const {
+  if (stage_.optics.maps.empty()) return hit.material;
+  const SurfaceMaps& maps = stage_.optics.maps[hit.material];
+  return maps.map != nullptr ? maps.materials[static_cast<std::size_t>(maps.map->nearest(hit.uv))]
+                             : hit.material;
 }
 
 // The radiance of the sky there over its mean, by traced band; null where it is the same everywhere.
@@ -330,7 +339,7 @@ bool Wave<Tally>::sees(const Path& path, const Eigen::Vector3f& towards, std::si
   Hit hit;
   for (int passed = 0; passed < most; ++passed) {
     if (stage_.intersector->intersect(ray, hit) != Escape::hit) return true;
-    const SurfaceOptics& surface = stage_.optics.surfaces[hit.material];
+    const SurfaceOptics& surface = stage_.optics.surfaces[material_at(hit)];
     if (!surface.lets_through) return false;
     const std::size_t face = hit.front ? 0 : 1;
     // What goes straight on is a sum of spectra; one alone keeps a monomial.
@@ -348,7 +357,7 @@ bool Wave<Tally>::sees(const Path& path, const Eigen::Vector3f& towards, std::si
       };
       for (const LobeOptics& lobe : surface.lobes)
         if (lobe.lobe->is_straight() && lobe.on_face[face]) add_spectrum(lobe.factor);
-      if (sampling_.attenuate_shadows) add_spectrum(transmittance_factor(hit.material));
+      if (sampling_.attenuate_shadows) add_spectrum(transmittance_factor(material_at(hit)));
       tally.scatter(weight, {no_factor, 1, values_.data()});
     }
     if (!(weight.guide.largest() > 0)) return false;
