@@ -37,6 +37,14 @@ positions = [[1, 2, 3], [1, 2, 4, 180]]
 scale = 2
 )";
 
+// Of an upright instance, in [0, 2 pi); float quaternions are good to 1e-7.
+double turned_about_z(const Instance& instance) {
+  EXPECT_TRUE(instance.rotation.upright());
+  const Eigen::Vector3d x = instance.rotation * Eigen::Vector3d::UnitX();
+  const double angle = std::atan2(x.y(), x.x());
+  return angle < 0 ? angle + 2 * pi : angle;
+}
+
 class SceneFile : public ::testing::Test {
  protected:
   SceneFile() {
@@ -73,9 +81,9 @@ TEST_F(SceneFile, IsReadInFull) {
   EXPECT_EQ(scene.prototypes[0].discs[0].normal, Eigen::Vector3f(0, 0, 1));
   EXPECT_EQ(scene.prototypes[0].disc_material, 1u);
   ASSERT_EQ(scene.instances.size(), 4u);
-  EXPECT_NEAR(scene.instances[1].rotation, pi / 2, 1e-12);
+  EXPECT_NEAR(turned_about_z(scene.instances[1]), pi / 2, 1e-6);
   EXPECT_EQ(scene.instances[1].scale, 1);
-  EXPECT_NEAR(scene.instances[3].rotation, pi, 1e-12);
+  EXPECT_NEAR(turned_about_z(scene.instances[3]), pi, 1e-6);
   EXPECT_EQ(scene.instances[3].scale, 2);
   EXPECT_EQ(scene.inputs.size(), 3u);
 }
