@@ -31,10 +31,9 @@ class Rotation {
 
  private:
   Eigen::Vector3d turn(const Eigen::Vector3d& v, double way) const {
-    const double x = x_, y = y_, z = z_, w = w_;
-    const Eigen::Vector3d axis(way * x, way * y, way * z);
-    const Eigen::Vector3d t = 2 / (x * x + y * y + z * z + w * w) * axis.cross(v);
-    return v + w * t + axis.cross(t);
+    const Eigen::Vector3d axis(way * x_, way * y_, way * z_);
+    const Eigen::Vector3d t = 2 * axis.cross(v);
+    return v + w_ * t + axis.cross(t);
   }
   float x_ = 0, y_ = 0, z_ = 0, w_ = 1;
 };
