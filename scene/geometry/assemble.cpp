@@ -9,7 +9,7 @@ namespace bpms {
 namespace {
 
 // Bytes that a primitive written out and one more instance take, roughly (scene/intersect/traced_build.cpp).
-constexpr double written_bytes = 150, instance_bytes = 900;
+constexpr double written_bytes = 150, instance_bytes = 400;
 constexpr double most_instances = 5e7, most_written = 1e8;  // what is beyond is refused, or taken apart
 
 bool has_normals(const Mesh& mesh) {

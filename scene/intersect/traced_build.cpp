@@ -8,10 +8,10 @@
 namespace bpms {
 namespace {
 
-// Bytes as measured of Embree 3.13 with AVX2 (bench_instances prints them again): a primitive with its share
-// of the hierarchy, and an instance with all that is kept of it. A disc's are its share of a cluster.
-constexpr std::uint64_t bytes_of_disc = 56, bytes_of_triangle = 160, bytes_of_shape = 160,
-                        bytes_of_instance = 900;
+// Bytes as measured with Embree 3.13 (bench_instances prints them again): a primitive with its share of the
+// hierarchy and of what is kept beside it, and an instance.
+constexpr std::uint64_t bytes_of_disc = 90, bytes_of_triangle = 115, bytes_of_shape = 230,
+                        bytes_of_instance = 330;
 
 std::uint64_t bytes_of(const Prototype& p) {
   return p.discs.size() * bytes_of_disc + (p.mesh ? p.mesh->triangles.size() * bytes_of_triangle : 0) +

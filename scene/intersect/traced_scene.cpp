@@ -290,9 +290,15 @@ bool TracedScene::inside_closed_shape(const Eigen::Vector3d& point) const {
 }
 
 std::uint64_t TracedScene::memory_bytes() const {
-  std::uint64_t out = device_.memory_bytes() + top_.own_bytes();
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  std::uint64_t out = device_.memory_bytes() + top_.own_bytes() + bytes(instances_) + bytes(copies_) +
+                      bytes(written_) + bytes(owners_) + bytes(whole_copy_);
   for (const auto& bvh : prototype_bvh_)
     if (bvh) out += bvh->own_bytes();
+  for (const Prototype& p : prototypes_) out += bytes(p.discs) + bytes(p.material_of_disc) + bytes(p.shapes);
+  for (const auto& normals : triangle_normals_) out += bytes(normals);
+  for (const Written& w : written_)
+    out += bytes(w.kept_discs) + bytes(w.kept_triangles) + bytes(w.kept_shapes);
   return out;
 }
 
