@@ -11,6 +11,9 @@
 
 #include "core/toml.h"
 #include "plant/mesh.h"
+#include "scene/geometry/shape.h"
+#include "scene/geometry/terrain.h"
+#include "scene/rotation.h"
 
 namespace bpms {
 
@@ -31,20 +34,35 @@ struct Prototype {
   std::string name;
   std::vector<Disc> discs;
   std::uint32_t disc_material = 0;
+  std::vector<std::uint32_t> material_of_disc;   // empty: disc_material for all
   std::shared_ptr<const Mesh> mesh;              // or null
   std::vector<std::uint32_t> material_of_organ;  // of the mesh's organs
+  std::vector<Shape> shapes;
 };
 
+inline constexpr std::uint32_t no_plant = 0xffffffffu;
+
+// Scaled, turned, then moved.
 struct Instance {
   std::uint32_t prototype = 0;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  double rotation = 0;  // about z, counter-clockwise from above
+  Rotation rotation = {};
   double scale = 1;
+  // The plant it is a part of: which of all the rows of all [[instances]] (and clones of the canopy) put it
+  // there.
+  std::uint32_t plant = no_plant;
 };
 
+// An infinite level plane, or terrain: then the plane (if any) is what lies outside of it.
 struct Ground {
-  double height_m = 0;
+  double height_m = 0;  // of the plane
   std::uint32_t material = 0;
+  std::shared_ptr<const Terrain> terrain = nullptr;
+  bool plane_outside = false;  // of terrain
+  bool has_plane() const { return !terrain || plane_outside; }
+  double height_at(const Eigen::Vector2d& at) const {
+    return terrain && (terrain->covers(at) || !plane_outside) ? terrain->height_m(at) : height_m;
+  }
 };
 
 struct Scene {

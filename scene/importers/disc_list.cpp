@@ -8,9 +8,12 @@
 namespace bpms {
 
 std::vector<Disc> read_disc_list(const std::string& path) {
+  return parse_disc_list(path, read_text(path));
+}
+
+std::vector<Disc> parse_disc_list(const std::string& path, std::string_view text) {
   static constexpr std::array<const char*, 7> names{"radius", "x", "y", "z", "nx", "ny", "nz"};
   constexpr double largest = 1e7;  // metres; float coordinates beyond it mean nothing to a leaf
-  const std::string text = read_text(path);
   TokenReader reader(path, text);
   std::vector<Disc> out;
   while (const auto first = reader.peek()) {

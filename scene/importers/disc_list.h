@@ -2,6 +2,7 @@
 // gzipped.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/scene.h"
@@ -10,4 +11,5 @@ namespace bpms {
 // A radius that is not positive, a normal of length zero, a row of another width: bad_input with its line and
 // column.
 std::vector<Disc> read_disc_list(const std::string& path);
+std::vector<Disc> parse_disc_list(const std::string& path, std::string_view text);
 }  // namespace bpms

@@ -3,13 +3,15 @@
 #include <cmath>
 
 #include "core/nearest.h"
-#include "core/text.h"
 #include "core/units.h"
 #include "plant/canopy.h"
-#include "scene/importers/disc_list.h"
+#include "scene/geometry/assemble.h"
+#include "scene/importers/ground.h"
 #include "scene/importers/materials.h"
-#include "scene/importers/mesh_file.h"
+#include "scene/importers/placements.h"
 #include "scene/importers/plants.h"
+#include "scene/importers/prototype.h"
+#include "scene/importers/scene_notes.h"
 #include "scene/scene.h"
 
 namespace bpms {
@@ -25,12 +27,16 @@ class SceneReader {
     names_.define(root_.get("materials"));
     read_canopy_key();
     read_domain(root_.get("domain"));
-    if (const TomlValue ground = root_.get("ground")) read_ground(ground);
-    const TomlValue prototypes = root_.get("prototypes");
-    for (const std::string& name : prototypes.keys()) read_prototype(name, prototypes.get(name));
+    if (const TomlValue ground = root_.get("ground")) scene_.ground = read_ground(ground, names_, scene_);
+    read_prototypes(root_.get("prototypes"));
     const TomlValue instances = root_.get("instances");
     for (std::size_t i = 0; i < instances.size(); ++i) read_instances(instances[i]);
-    note_unused(prototypes.keys());
+    if (scene_.instances.empty() && !scene_.ground)
+      refuse("an empty scene: there is no [ground], no [[instances]] and no canopy");
+    note_unused();
+    for (std::uint32_t k = 0; k < scene_.instances.size(); ++k) scene_.instances[k].plant = k;
+    resolve_assemblies(assemblies_, scene_);
+    note_implausible(scene_);
     return std::move(scene_);
   }
 
@@ -63,124 +69,90 @@ class SceneReader {
 
   // A misspelt `canopy` or `domain` is the likelier mistake.
   [[noreturn]] void no_size(const TomlValue& domain) const {
+    refuse("a periodic domain needs its size: [domain] size_m = [x, y], or boundary = \"open\"",
+           domain ? domain : root_);
+  }
+  [[noreturn]] void refuse(const char* message) const { refuse(message, root_); }
+  [[noreturn]] void refuse(const char* message, const TomlValue& at) const {
     for (const char* key :
          {"ground", "prototypes", "instances", "illumination", "sensors", "bands", "sampling"})
       root_.get(key);
-    (domain ? domain : root_)
-        .reject_choice("a periodic domain needs its size: [domain] size_m = [x, y], or boundary = \"open\"");
+    at.reject_choice(message);
   }
 
-  void read_ground(const TomlValue& ground) {
-    const TomlValue type = ground.require("type");
-    if (type.one_of({"plane", "dem"}) == "dem") type.reject("terrain is not built yet; a plane is");
-    Ground out;
-    if (const TomlValue height = ground.get("height_m"))
-      out.height_m = height.number(-farthest_m, farthest_m);
-    const TomlValue material = ground.require("material");
-    out.material = names_.number(material.string(), material.where());
-    scene_.ground = out;
-  }
-
-  void read_prototype(const std::string& name, const TomlValue& table) {
-    static const std::vector<std::string> later{"canopy", "librat", "volume"};
-    for (const std::string& key : later)
-      if (const TomlValue value = table.get(key)) value.reject("prototypes of this kind are not built yet");
-    const TomlValue discs = table.get("discs"), plant = table.get("plant"), mesh = table.get("mesh");
-    if (static_cast<int>(static_cast<bool>(discs)) + static_cast<bool>(plant) + static_cast<bool>(mesh) != 1)
-      bad_input(table.where(), "[{}] needs one of discs, plant, mesh", table.name());
-    const TomlValue material = table.get("material"), materials = table.get("materials");
-    const std::string all = material ? material.string() : "";
-    const SourceLocation where = material ? material.where() : table.where();
-    const TomlValue* renamed = materials ? &materials : nullptr;
-    Prototype out;
-    if (discs) {
-      const std::string path = input(discs);
-      if (materials) materials.reject("discs have one material: give `material`");
-      if (!material) bad_input(table.where(), "[{}] needs material = \"...\"", table.name());
-      out.disc_material = names_.number(all, where);
-      out.discs = read_disc_list(path);
-    } else if (plant) {
-      const Plant read = read_plant(input(plant));
-      scene_.notes.insert(scene_.notes.end(), read.warnings.begin(), read.warnings.end());
-      out = plant_prototype(read, name, all, renamed, where, names_);
-    } else {
-      const TomlValue unit = table.get("unit"), up = table.get("up");
-      const double metres = unit ? metres_per_unit(unit.string(), unit.where()) : 1;
-      const bool y_up = up && up.one_of({"z", "y"}) == "y";
-      out.mesh = read_mesh_file(input(mesh), metres, y_up);
-      out.material_of_organ = organ_materials(*out.mesh, all, renamed, where, names_);
+  // First what is geometry itself; then what is made of it, in any order.
+  void read_prototypes(const TomlValue& prototypes) {
+    std::vector<TomlValue> made_of_parts;
+    for (const std::string& name : prototypes.keys()) {
+      const TomlValue table = prototypes.get(name);
+      own_names_.push_back(name);
+      if (has_parts(table)) {
+        assemblies_.push_back({name, {}});
+        made_of_parts.push_back(table);
+      } else {
+        scene_.prototypes.push_back(read_prototype(name, table, names_, scene_));
+      }
     }
-    out.name = name;
-    scene_.prototypes.push_back(std::move(out));
+    used_.assign(scene_.prototypes.size() + assemblies_.size(), false);
+    for (std::size_t k = 0; k < made_of_parts.size(); ++k) read_parts(made_of_parts[k], assemblies_[k]);
+    const std::vector<std::size_t> cycle = find_cycle(scene_.prototypes.size(), assemblies_);
+    if (cycle.empty()) return;
+    std::string chain;
+    for (const std::size_t k : cycle) chain += (chain.empty() ? "" : " > ") + assemblies_[k].name;
+    bad_input(made_of_parts[cycle.front()].get("parts").where(), "prototypes contain each other: {}", chain);
+  }
+
+  void read_parts(const TomlValue& table, Assembly& out) {
+    const TomlValue parts = table.get("parts");
+    if (parts.size() == 0) parts.reject("no parts");
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const std::uint32_t prototype = prototype_number(parts[k].require("prototype"));
+      for (Instance& part : read_placements(parts[k], scene_.inputs)) {
+        part.prototype = prototype;
+        out.parts.push_back(part);
+      }
+    }
   }
 
   void read_instances(const TomlValue& table) {
-    const TomlValue which = table.require("prototype");
-    Instance instance;
-    instance.prototype = prototype_number(which);
-    if (const TomlValue scale = table.get("scale")) {
-      constexpr double largest_scale = 1e6;
-      instance.scale = scale.positive();
-      if (instance.scale > largest_scale) scale.reject("expected a factor up to 1e6");
-    }
-    const double turn = radians(table.number_or("rotation_deg", 0));
-    const TomlValue positions = table.require("positions");
-    const auto place = [&](const std::vector<double>& row) {
-      instance.position_m = {row[0], row[1], row[2]};
-      instance.rotation = turn + (row.size() > 3 ? radians(row[3]) : 0);
+    const std::uint32_t prototype = prototype_number(table.require("prototype"));
+    for (Instance& instance : read_placements(table, scene_.inputs)) {
+      instance.prototype = prototype;
       scene_.instances.push_back(instance);
-    };
-    if (positions.is_string()) {
-      const NumberTable table_of = read_number_table(input(positions), 3, 4, "x y z [rotation_deg]");
-      for (std::size_t i = 0; i < table_of.rows.size(); ++i) {
-        if (too_far(table_of.rows[i]))
-          bad_input({table_of.file, table_of.lines[i]}, "a position beyond 1e7 m");
-        place(table_of.rows[i]);
-      }
-      return;
     }
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      const std::vector<double> row = positions[i].numbers();
-      if (row.size() < 3 || row.size() > 4 || too_far(row))
-        positions[i].reject("expected [x, y, z] or [x, y, z, rotation_deg], positions within 1e7 m");
-      place(row);
-    }
-    if (positions.size() == 0) positions.reject("no positions");
   }
 
-  static bool too_far(const std::vector<double>& row) {
-    return std::any_of(row.begin(), row.begin() + 3, [](double x) { return std::abs(x) > farthest_m; });
-  }
-
-  std::uint32_t prototype_number(const TomlValue& which) const {
+  // Assemblies are numbered after the prototypes.
+  std::uint32_t prototype_number(const TomlValue& which) {
     const std::string name = which.string();
     std::vector<std::string> known;
-    for (std::size_t i = scene_.prototypes.size();
-         i-- > 0;) {  // the file's own before the canopy's of one name
-      if (scene_.prototypes[i].name == name) return static_cast<std::uint32_t>(i);
-      known.push_back(scene_.prototypes[i].name);
+    for (const Prototype& prototype : scene_.prototypes) known.push_back(prototype.name);
+    for (const Assembly& assembly : assemblies_) known.push_back(assembly.name);
+    for (std::size_t i = known.size(); i-- > 0;) {  // the file's own before the canopy's of one name
+      if (known[i] != name) continue;
+      used_[i] = true;
+      return static_cast<std::uint32_t>(i);
     }
+    std::reverse(known.begin(), known.end());
     bad_input(which.where(), "there is no [prototypes.{}]{}", name, did_you_mean(name, known));
   }
 
-  void note_unused(const std::vector<std::string>& names) {
-    for (std::uint32_t i = 0; i < scene_.prototypes.size(); ++i) {
-      const std::string& name = scene_.prototypes[i].name;
-      const bool used = std::any_of(scene_.instances.begin(), scene_.instances.end(),
-                                    [i](const Instance& instance) { return instance.prototype == i; });
-      if (!used && std::find(names.begin(), names.end(), name) != names.end())
-        scene_.notes.push_back("[prototypes." + name + "] stands nowhere: no [[instances]] names it");
+  void note_unused() {
+    for (std::size_t i = 0; i < used_.size(); ++i) {
+      const std::string& name = i < scene_.prototypes.size() ? scene_.prototypes[i].name
+                                                             : assemblies_[i - scene_.prototypes.size()].name;
+      if (!used_[i] && std::find(own_names_.begin(), own_names_.end(), name) != own_names_.end())
+        scene_.notes.push_back("[prototypes." + name +
+                               "] stands nowhere: no [[instances]] and no parts name it");
     }
-  }
-
-  std::string input(const TomlValue& path) {
-    scene_.inputs.push_back(path.file_relative(path.string()));
-    return scene_.inputs.back();
   }
 
   TomlValue root_;
   Scene scene_;
   MaterialNames names_;
+  std::vector<std::string> own_names_;  // of the file's prototypes
+  std::vector<Assembly> assemblies_;
+  std::vector<bool> used_;
 };
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "scene/intersect/box.h"
 
-#include <cmath>
-
 namespace bpms {
 
 Box bounds(const Disc& disc) {
@@ -12,8 +10,15 @@ Box bounds(const Disc& disc) {
   return {c - half, c + half};
 }
 
+Box bounds(const Shape& shape) {
+  Eigen::Vector3d middle, half;
+  shape_box(shape, middle, half);
+  return {middle - half, middle + half};
+}
+
 Box bounds(const Prototype& prototype) {
   Box out;
+  for (const Shape& shape : prototype.shapes) out.include(bounds(shape));
   for (const Disc& disc : prototype.discs) out.include(bounds(disc));
   if (prototype.mesh)
     for (const Eigen::Vector3f& p : prototype.mesh->positions_m) out.include(p.cast<double>());
@@ -23,12 +28,11 @@ Box bounds(const Prototype& prototype) {
 Box bounds(const Box& prototype, const Instance& instance) {
   Box out;
   if (prototype.empty()) return out;
-  const double c = std::cos(instance.rotation), s = std::sin(instance.rotation);
   for (int corner = 0; corner < 8; ++corner) {
     const double x = corner & 1 ? prototype.high.x() : prototype.low.x();
     const double y = corner & 2 ? prototype.high.y() : prototype.low.y();
     const double z = corner & 4 ? prototype.high.z() : prototype.low.z();
-    out.include(instance.position_m + instance.scale * Eigen::Vector3d(c * x - s * y, s * x + c * y, z));
+    out.include(instance.position_m + instance.scale * (instance.rotation * Eigen::Vector3d(x, y, z)));
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// Axis-aligned boxes around discs, prototypes and their instances.
+// Axis-aligned boxes around discs, shapes, prototypes and their instances.
 #pragma once
 #include <Eigen/Core>
 
@@ -14,8 +14,9 @@ struct Box {
   void include(const Box& other) { low = low.cwiseMin(other.low), high = high.cwiseMax(other.high); }
 };
 Box bounds(const Disc& disc);
+Box bounds(const Shape& shape);
 Box bounds(const Prototype& prototype);
-// Encloses an instance: exact in z, and in x and y when it is not turned.
+// Encloses an instance: exact in z when it stands upright, and in x and y too when it is not turned at all.
 Box bounds(const Box& prototype, const Instance& instance);
 
 }  // namespace bpms

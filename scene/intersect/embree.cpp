@@ -78,21 +78,33 @@ std::span<T> buffer(const Device& device, RTCGeometry geometry, RTCBufferType ty
 }
 }  // namespace
 
-const DiscClusters& Bvh::add_discs(std::uint32_t id, const std::vector<Disc>& discs) {
-  discs_.push_back(std::make_unique<DiscClusters>(discs));
+template <class Primitives>
+void Bvh::attach_user(Primitives& all, std::size_t count, std::uint32_t id) {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(discs_.back()->clusters()));
-  rtcSetGeometryUserData(geometry, discs_.back().get());
-  rtcSetGeometryBoundsFunction(geometry, &DiscClusters::bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, &DiscClusters::intersect);
-  rtcSetGeometryOccludedFunction(geometry, &DiscClusters::occluded);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
+  rtcSetGeometryUserData(geometry, &all);
+  rtcSetGeometryBoundsFunction(geometry, &Primitives::bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, &Primitives::intersect);
+  rtcSetGeometryOccludedFunction(geometry, &Primitives::occluded);
   attach(geometry, id);
-  return *discs_.back();
 }
 
-std::uint64_t Bvh::disc_bytes() const {
+const DiscClusters& Bvh::add_discs(std::uint32_t id, const std::vector<Disc>& discs) {
+  DiscClusters& all = *discs_.emplace_back(std::make_unique<DiscClusters>(discs));
+  attach_user(all, all.clusters(), id);
+  return all;
+}
+
+const Shapes& Bvh::add_shapes(std::uint32_t id, std::vector<Shape> shapes) {
+  Shapes& all = *shapes_.emplace_back(std::make_unique<Shapes>(std::move(shapes)));
+  attach_user(all, all.size(), id);
+  return all;
+}
+
+std::uint64_t Bvh::own_bytes() const {
   std::uint64_t out = 0;
   for (const auto& discs : discs_) out += discs->memory_bytes();
+  for (const auto& shapes : shapes_) out += shapes->memory_bytes();
   return out;
 }
 
@@ -108,11 +120,9 @@ void Bvh::add_triangles(std::uint32_t id, std::size_t vertices, std::size_t tria
 void Bvh::add_instance(std::uint32_t id, const Bvh& prototype, const Placement& p) {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, prototype.scene_);
-  const auto c = static_cast<float>(p.cos_scaled);
-  const auto s = static_cast<float>(p.sin_scaled);
-  const Eigen::Vector3f t = p.origin.cast<float>();
-  const float columns[12] = {c, s, 0, -s, c, 0, 0, 0, static_cast<float>(p.scale), t.x(), t.y(), t.z()};
-  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  Eigen::Matrix<float, 3, 4> columns;
+  columns << p.turned_and_scaled.cast<float>(), p.origin.cast<float>();
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
   attach(geometry, id);
 }
 

@@ -1,6 +1,6 @@
 // Embree 3 or 4 behind a few calls: the one place that knows which of them it is.
-// A BVH holds discs, triangles and instances of other BVHs (one level). Closest hit and any hit in [near,
-// far].
+// A BVH holds discs, triangles, shapes and instances of other BVHs (one level). Closest hit and any hit in
+// [near, far].
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -10,6 +10,7 @@
 #include <span>
 
 #include "scene/intersect/disc_clusters.h"
+#include "scene/intersect/shapes.h"
 
 #if __has_include(<embree4/rtcore.h>) && !__has_include(<embree3/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -41,12 +42,10 @@ class Device {
   RTCDevice device_ = nullptr;
 };
 
-// The linear map from a prototype's frame to the world: rotation about z, uniform scale, translation.
+// The linear map from a prototype's frame to the world: uniform scale, rotation, translation.
 struct Placement {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  double cos_scaled = 1;  // scale * cos(rotation)
-  double sin_scaled = 0;
-  double scale = 1;
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d turned_and_scaled;
 };
 
 // What a ray met: geometry and primitive in the (sub)scene, instance in the top scene or `none`.
@@ -57,6 +56,7 @@ struct Found {
   std::uint32_t geometry;
   std::uint32_t primitive;
   std::uint32_t instance;
+  std::array<float, 3> at;  // of a shape: the crossing's place in the shape's frame
 };
 
 struct Segment {
@@ -81,19 +81,23 @@ class Bvh {
   const DiscClusters& add_discs(std::uint32_t geometry, const std::vector<Disc>& discs);
   void add_triangles(std::uint32_t geometry, std::size_t vertices, std::size_t triangles,
                      const std::function<void(const Triangles&)>& fill);
+  const Shapes& add_shapes(std::uint32_t geometry, std::vector<Shape> shapes);
   void add_instance(std::uint32_t geometry, const Bvh& prototype, const Placement& placement);
   void commit();
 
   bool intersect(const Segment& segment, Found& found) const;
   bool occluded(const Segment& segment) const;
   RTCScene get() const { return scene_; }
-  std::uint64_t disc_bytes() const;  // which the device does not count
+  std::uint64_t own_bytes() const;  // of discs and shapes, which the device does not count
 
  private:
   void attach(RTCGeometry geometry, std::uint32_t id);
   const Device& device_;
   RTCScene scene_ = nullptr;
+  template <class Primitives>
+  void attach_user(Primitives& all, std::size_t count, std::uint32_t id);
   std::vector<std::unique_ptr<DiscClusters>> discs_;
+  std::vector<std::unique_ptr<Shapes>> shapes_;
 };
 
 inline RTCRay to_ray(const Segment& s) {
@@ -122,7 +126,13 @@ inline bool Bvh::intersect(const Segment& segment, Found& found) const {
   rtcIntersect1(scene_, &both);
 #endif
   if (both.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  found = {both.ray.tfar, both.hit.u, both.hit.v, both.hit.geomID, both.hit.primID, both.hit.instID[0]};
+  found = {both.ray.tfar,
+           both.hit.u,
+           both.hit.v,
+           both.hit.geomID,
+           both.hit.primID,
+           both.hit.instID[0],
+           {both.hit.Ng_x, both.hit.Ng_y, both.hit.Ng_z}};
   return true;
 }
 

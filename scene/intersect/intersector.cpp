@@ -33,6 +33,8 @@ struct Intersector::Impl {
     double before;  // length of the pieces before
     double lift;
     SurfaceId from;
+    bool leaves = false;  // a primitive, which it may meet again by rounding
+    double rising = 0;    // the sine at which it leaves: above 0 to the upper side
   };
   enum class Met { nothing, geometry, ground };
   struct Found {
@@ -47,7 +49,12 @@ struct Intersector::Impl {
   template <bool any>
   bool piece(const Way& way, double length, embree::Found& found) const;
   bool is_start(const Way& way, const embree::Found& found) const;
+  bool is_start_shape(const Way& way, const embree::Found& found, const Eigen::Vector3d& start) const;
+  double to_plane(const Way& way) const;
   void describe(const Found& found, Hit& hit) const;
+  Eigen::Vector3d describe_disc(const Found& found, const Prototype& prototype, Hit& hit) const;
+  Eigen::Vector3d describe_triangle(const Found& found, const Prototype& prototype, Hit& hit) const;
+  Eigen::Vector3d describe_shape(const Found& found, const Prototype& prototype, Hit& hit) const;
   void describe_ground(const Way& way, double distance, Hit& hit) const;
 
   TracedScene traced;
@@ -70,7 +77,7 @@ Intersector::Impl::Impl(const Scene& scene, const IntersectorOptions& options)
   high = box.high.head<2>();
   top = box.low.z() > box.high.z() ? -infinity : box.high.z();
   bottom = box.low.z() > box.high.z() ? infinity : box.low.z();
-  if (ground) {
+  if (ground && ground->has_plane()) {
     top = std::max(top, ground->height_m);
     bottom = std::min(bottom, ground->height_m);
   }
@@ -89,15 +96,25 @@ void Intersector::Impl::into_cell(Eigen::Vector3d& point) const {
 }
 
 Intersector::Impl::Way Intersector::Impl::start(const Ray& ray) const {
-  Way way{ray.origin.cast<double>(), ray.direction.cast<double>(), ray.far, 0, 0, ray.from};
+  Way way{ray.origin.cast<double>(), ray.direction.cast<double>(), ray.far, 0, 0, ray.from, false, 0};
   if (periodic) into_cell(way.origin);
   way.lift = lift * (way.origin.cwiseAbs().maxCoeff() + 1e-3);
-  if (way.from.geometry < TracedScene::ground) {
+  if (TracedScene::is_primitive(way.from)) {
     // A point of a wide triangle near the scene's origin is as inexact as the triangle's far corners.
     const bool known = ray.from_extent >= 0;
     way.lift += lift * (known ? static_cast<double>(ray.from_extent) : traced.extent(way.from));
-    const Eigen::Vector3d n = known ? ray.from_normal.cast<double>().eval() : traced.normal(way.from);
-    way.origin += (n.dot(way.direction) < 0 ? -way.lift : way.lift) * n;
+    const Eigen::Vector3d n =
+        known ? ray.from_normal.cast<double>().eval() : traced.normal(way.from, way.origin);
+    way.leaves = true;
+    way.rising = n.dot(way.direction);
+    double by = way.lift;
+    if (way.from.geometry == TracedScene::shapes && way.rising < 0) {
+      // Inside, hits on itself are told apart by name: it need only be sure to be inside, and must not get
+      // out again through the far side or past an edge.
+      constexpr double inwards = 0.25, part = 0.05;
+      by = std::min(inwards * by, part * traced.thinnest(way.from));
+    }
+    way.origin += (way.rising < 0 ? -by : by) * n;
   }
   return way;
 }
@@ -105,12 +122,22 @@ Intersector::Impl::Way Intersector::Impl::start(const Ray& ray) const {
 // Is this the very element that the ray started on (and not a shifted copy of it)?
 bool Intersector::Impl::is_start(const Way& way, const embree::Found& found) const {
   const SurfaceId id = traced.id(found);
-  if (id.instance != way.from.instance || id.geometry != way.from.geometry ||
-      id.primitive != way.from.primitive)
-    return false;
-  const TracedScene::Plane plane = traced.plane(found);
+  if (id.instance != way.from.instance || id.geometry != way.from.geometry) return false;
   const Eigen::Vector3d start = way.origin - way.before * way.direction;
+  if (id.geometry == TracedScene::shapes)
+    return id.primitive / 4 == way.from.primitive / 4 && is_start_shape(way, found, start);
+  if (id.primitive != way.from.primitive) return false;
+  const TracedScene::Plane plane = traced.plane(found);
   return std::abs((start - plane.point).dot(plane.normal)) <= 4 * way.lift;
+}
+
+// All shapes are convex: what leaves one to the outside does not meet it again; what goes in comes out once,
+// and does not come in again.
+bool Intersector::Impl::is_start_shape(const Way& way, const embree::Found& found,
+                                       const Eigen::Vector3d& start) const {
+  if (std::abs(traced.shape_offset_of(found, static_cast<int>(way.from.primitive % 4), start)) > 4 * way.lift)
+    return false;
+  return way.rising >= 0 || traced.shape_at(found).normal.dot(way.direction) < 0;
 }
 
 // Is anything met between the way's origin and `length`? For any = true, `found` may stay as it is.
@@ -118,17 +145,25 @@ template <bool any>
 bool Intersector::Impl::piece(const Way& way, double length, embree::Found& found) const {
   embree::Segment segment{way.origin.cast<float>(), 0, way.direction.cast<float>(),
                           static_cast<float>(length)};
-  const bool may_meet_start = way.from.geometry < TracedScene::ground;
   if constexpr (any) {
-    if (!may_meet_start || std::abs(traced.normal(way.from).dot(way.direction)) > grazing)
-      return traced.bvh().occluded(segment);
+    // To be inside a shape is to be within rounding of its other side, perhaps.
+    const bool in_shape = way.from.geometry == TracedScene::shapes && way.rising < 0;
+    if (!way.leaves || (std::abs(way.rising) > grazing && !in_shape)) return traced.bvh().occluded(segment);
   }
   while (traced.bvh().intersect(segment, found)) {
-    if (!may_meet_start || !is_start(way, found)) return true;
+    if (!way.leaves || !is_start(way, found)) return true;
     segment.near = std::nextafter(found.distance, std::numeric_limits<float>::infinity());
     if (segment.near > segment.far) return false;
   }
   return false;
+}
+
+// Along the piece, to the ground's plane where that is to be seen.
+double Intersector::Impl::to_plane(const Way& way) const {
+  const double t = (ground->height_m - way.origin.z()) / way.direction.z();
+  if (!ground->terrain) return t;
+  const Eigen::Vector2d at = (way.origin + t * way.direction).head<2>();
+  return ground->terrain->covers(at) ? infinity : t;
 }
 
 template <bool any>
@@ -151,12 +186,12 @@ Escape Intersector::Impl::trace(const Ray& ray, Found& found, double& ground_dis
     advance((bottom - slack - way.origin.z()) / dz);
     if (periodic) into_cell(way.origin);
   }
-  const bool may_meet_ground = ground && way.from.geometry != TracedScene::ground &&
+  const bool may_meet_ground = ground && ground->has_plane() && way.from.geometry != TracedScene::ground &&
                                (way.origin.z() >= ground->height_m ? dz < 0 : dz > 0);
   for (int wraps = 0;; ++wraps) {
     const double to_far = way.far - way.before;
     if (to_far < 0) return dz < 0 ? Escape::bottom : Escape::top;
-    const double to_ground = may_meet_ground ? (ground->height_m - way.origin.z()) / dz : infinity;
+    const double to_ground = may_meet_ground ? to_plane(way) : infinity;
     const double to_edge = dz > 0   ? (top + slack - way.origin.z()) / dz
                            : dz < 0 ? (bottom - slack - way.origin.z()) / dz
                                     : infinity;
@@ -193,47 +228,96 @@ void Intersector::Impl::describe(const Found& found, Hit& hit) const {
   const Prototype& prototype = traced.prototype(id.instance);
   hit.id = id;
   hit.distance = static_cast<float>(way.before + what.distance);
-  hit.uv = {what.u, what.v};
   hit.ground = false;
-  const auto [point, normal] = traced.plane(what);
+  hit.organ = 0xffffffffu;
   hit.extent = static_cast<float>(traced.extent(id));
-  const double cosine = normal.dot(way.direction);
-  hit.front = cosine < 0;
-  hit.geometric_normal = normal.cast<float>();
-  hit.shading_normal = hit.geometric_normal;
   Eigen::Vector3d position;
   if (id.geometry == TracedScene::discs) {
-    // In the disc's own plane: origin + t d is off it by t's rounding.
-    const Eigen::Vector3d offset = way.origin - point + static_cast<double>(what.distance) * way.direction;
-    position = point + offset - offset.dot(normal) * normal;
-    hit.uv.setZero();
-    hit.material = prototype.disc_material;
-    hit.organ = 0xffffffffu;
+    position = describe_disc(found, prototype, hit);
+  } else if (id.geometry == TracedScene::triangles) {
+    position = describe_triangle(found, prototype, hit);
   } else {
-    const Mesh& mesh = *prototype.mesh;
-    const std::array<std::uint32_t, 3>& corners = mesh.triangles[id.primitive];
-    const float u = what.u, v = what.v, w = 1 - u - v;
-    const auto interpolate = [&](const auto& of) -> std::decay_t<decltype(of[0])> {
-      return w * of[corners[0]] + u * of[corners[1]] + v * of[corners[2]];
-    };
-    position = traced.to_world(what, interpolate(mesh.positions_m));
-    if (!mesh.uv.empty()) hit.uv = interpolate(mesh.uv);
-    hit.organ = mesh.organ_of_triangle.empty() ? 0xffffffffu : mesh.organ_of_triangle[id.primitive];
-    hit.material =
-        hit.organ < prototype.material_of_organ.size() ? prototype.material_of_organ[hit.organ] : 0;
-    if (!mesh.normals.empty()) {
-      // The viewer must see the same side of both normals: else the shading normal is bent until it just
-      // does.
-      Eigen::Vector3d s = traced.turn(id.instance, interpolate(mesh.normals)).normalized();
-      constexpr double least = 1e-3;
-      const double side = hit.front ? -1 : 1;
-      const double seen = side * s.dot(way.direction);
-      if (!(seen > least)) s = (s + side * (least - seen) * way.direction).normalized();
-      if (s.allFinite()) hit.shading_normal = s.cast<float>();
-    }
+    position = describe_shape(found, prototype, hit);
   }
   if (periodic) into_cell(position);
   hit.position = position.cast<float>();
+}
+
+Eigen::Vector3d Intersector::Impl::describe_disc(const Found& found, const Prototype& prototype,
+                                                 Hit& hit) const {
+  const auto& [what, way] = found;
+  const auto [point, normal] = traced.plane(what);
+  hit.front = normal.dot(way.direction) < 0;
+  hit.geometric_normal = hit.shading_normal = normal.cast<float>();
+  hit.uv.setZero();
+  hit.dp_du.setZero();
+  hit.dp_dv.setZero();
+  hit.material = prototype.material_of_disc.empty() ? prototype.disc_material
+                                                    : prototype.material_of_disc[hit.id.primitive];
+  // In the disc's own plane: origin + t d is off it by t's rounding.
+  const Eigen::Vector3d offset = way.origin - point + static_cast<double>(what.distance) * way.direction;
+  return point + offset - offset.dot(normal) * normal;
+}
+
+Eigen::Vector3d Intersector::Impl::describe_triangle(const Found& found, const Prototype& prototype,
+                                                     Hit& hit) const {
+  const auto& [what, way] = found;
+  const SurfaceId& id = hit.id;
+  const Mesh& mesh = *prototype.mesh;
+  const std::array<std::uint32_t, 3>& corners = mesh.triangles[id.primitive];
+  const float u = what.u, v = what.v, w = 1 - u - v;
+  const auto interpolate = [&](const auto& of) -> std::decay_t<decltype(of[0])> {
+    return w * of[corners[0]] + u * of[corners[1]] + v * of[corners[2]];
+  };
+  const Eigen::Vector3d position =
+      traced.to_world(what, interpolate(mesh.positions_m).template cast<double>());
+  const Eigen::Vector3d normal = traced.normal(id, position);
+  hit.front = normal.dot(way.direction) < 0;
+  hit.geometric_normal = hit.shading_normal = normal.cast<float>();
+  hit.ground = traced.is_terrain(id.instance);
+  if (!mesh.organ_of_triangle.empty()) hit.organ = mesh.organ_of_triangle[id.primitive];
+  const std::uint32_t organ = mesh.organ_of_triangle.empty() ? 0 : hit.organ;
+  hit.material = organ < prototype.material_of_organ.size() ? prototype.material_of_organ[organ] : 0;
+  hit.uv = {u, v};
+  hit.dp_du.setZero();
+  hit.dp_dv.setZero();
+  if (!mesh.uv.empty()) {
+    hit.uv = interpolate(mesh.uv);
+    const Eigen::Vector3f& p = mesh.positions_m[corners[0]];
+    const Eigen::Vector3d e1 = (mesh.positions_m[corners[1]] - p).cast<double>(),
+                          e2 = (mesh.positions_m[corners[2]] - p).cast<double>();
+    const Eigen::Vector2d t1 = (mesh.uv[corners[1]] - mesh.uv[corners[0]]).cast<double>(),
+                          t2 = (mesh.uv[corners[2]] - mesh.uv[corners[0]]).cast<double>();
+    const double determinant = t1.x() * t2.y() - t2.x() * t1.y();
+    if (std::abs(determinant) > 1e-12 * t1.norm() * t2.norm()) {
+      const double by = traced.scale(id.instance) / determinant;
+      hit.dp_du = (by * traced.turn(id.instance, t2.y() * e1 - t1.y() * e2)).cast<float>();
+      hit.dp_dv = (by * traced.turn(id.instance, t1.x() * e2 - t2.x() * e1)).cast<float>();
+    }
+  }
+  if (!mesh.normals.empty()) {
+    // The viewer must see the same side of both normals: else the shading normal is bent until it just does.
+    Eigen::Vector3d s =
+        traced.turn(id.instance, interpolate(mesh.normals).template cast<double>()).normalized();
+    constexpr double least = 1e-3;
+    const double side = hit.front ? -1 : 1;
+    const double seen = side * s.dot(way.direction);
+    if (!(seen > least)) s = (s + side * (least - seen) * way.direction).normalized();
+    if (s.allFinite()) hit.shading_normal = s.cast<float>();
+  }
+  return position;
+}
+
+Eigen::Vector3d Intersector::Impl::describe_shape(const Found& found, const Prototype& prototype,
+                                                  Hit& hit) const {
+  const ShapePoint point = traced.shape_at(found.what);
+  hit.front = point.normal.dot(found.way.direction) < 0;
+  hit.geometric_normal = hit.shading_normal = point.normal.cast<float>();
+  hit.uv = point.uv.cast<float>();
+  hit.dp_du = point.dp_du.cast<float>();
+  hit.dp_dv = point.dp_dv.cast<float>();
+  hit.material = prototype.shapes[hit.id.primitive / 4].material;
+  return point.position;
 }
 
 void Intersector::Impl::describe_ground(const Way& way, double distance, Hit& hit) const {
@@ -247,7 +331,9 @@ void Intersector::Impl::describe_ground(const Way& way, double distance, Hit& hi
   hit.material = ground->material;
   hit.organ = 0xffffffffu;
   hit.uv.setZero();
-  hit.id = {0, TracedScene::ground, 0};
+  hit.dp_du.setZero();
+  hit.dp_dv.setZero();
+  hit.id = ground_surface;
   hit.extent = 0;
   hit.ground = true;
 }
@@ -280,6 +366,20 @@ std::unique_ptr<ParallelRays> Intersector::parallel_rays(const Scene& scene, con
   return ParallelRays::make(impl_->traced, scene, towards, most_bytes);
 }
 
+std::uint32_t Intersector::plant_of(const SurfaceId& id) const {
+  return TracedScene::is_primitive(id) ? impl_->traced.plant(id.instance) : no_plant;
+}
+
+bool Intersector::inside_solid(const Eigen::Vector3d& point) const {
+  Eigen::Vector3d at = point;
+  if (impl_->periodic) impl_->into_cell(at);
+  const std::optional<Ground>& ground = impl_->ground;
+  if (ground && (ground->has_plane() || ground->terrain->covers(at.head<2>())) &&
+      at.z() < ground->height_at(at.head<2>()))
+    return true;
+  return impl_->traced.inside_closed_shape(at);
+}
+
 float Intersector::top_m() const {
   return static_cast<float>(impl_->top);
 }
@@ -294,6 +394,9 @@ Eigen::Vector2f Intersector::cell_high_m() const {
 }
 std::uint64_t Intersector::memory_bytes() const {
   return impl_->traced.memory_bytes();
+}
+std::uint64_t Intersector::estimated_bytes() const {
+  return impl_->traced.estimated_bytes();
 }
 
 }  // namespace bpms

@@ -21,7 +21,9 @@ std::unique_ptr<ParallelRays> ParallelRays::make(const TracedScene& traced, cons
                                                  const Eigen::Vector3d& towards, std::uint64_t most_bytes) {
   if (!(towards.z() > 0)) return nullptr;
   for (const Instance& instance : scene.instances)
-    if (scene.prototypes[instance.prototype].mesh) return nullptr;
+    if (const Prototype& p = scene.prototypes[instance.prototype]; p.mesh || !p.shapes.empty())
+      return nullptr;
+  if (scene.ground && scene.ground->terrain) return nullptr;
   std::unique_ptr<ParallelRays> out(new ParallelRays(traced, scene, towards));
   if (!out->build(most_bytes)) return nullptr;
   return out;
@@ -65,8 +67,8 @@ bool ParallelRays::flatten(std::vector<Bounds>& bounds) {
     for (std::size_t k = 0; k < discs.size(); ++k) {
       Ellipse& e = ellipses_[first_id_[i] + k];
       Bounds& box = bounds[first_id_[i] + k];
-      const Eigen::Vector3d centre = traced_->place(i, discs[k].centre_m);
-      const Eigen::Vector3d normal = traced_->turn(i, discs[k].normal);
+      const Eigen::Vector3d centre = traced_->place(i, discs[k].centre_m.cast<double>());
+      const Eigen::Vector3d normal = traced_->turn(i, discs[k].normal.cast<double>());
       const double radius = scene_->instances[i].scale * static_cast<double>(discs[k].radius_m);
       const double along = normal.dot(slope);
       box.half_u = -1;
@@ -242,6 +244,8 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
   hit.ground = false;
   hit.organ = 0xffffffffu;
   hit.uv.setZero();
+  hit.dp_du.setZero();
+  hit.dp_dv.setZero();
   hit.position = position.cast<float>();
   hit.distance = static_cast<float>((p.z() - z) / towards_.z());
   if (id == 0xffffffffu) {
@@ -256,11 +260,13 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
                                                    first_id_.begin() - 1);
   hit.id = {instance, TracedScene::discs, id - first_id_[instance]};
   const Prototype& prototype = traced_->prototype(instance);
-  const Eigen::Vector3d normal = traced_->turn(instance, prototype.discs[hit.id.primitive].normal);
+  const Eigen::Vector3d normal =
+      traced_->turn(instance, prototype.discs[hit.id.primitive].normal.cast<double>());
   hit.geometric_normal = hit.shading_normal = normal.cast<float>();
   hit.extent = static_cast<float>(traced_->extent(hit.id));
   hit.front = normal.dot(towards_) > 0;
-  hit.material = prototype.disc_material;
+  hit.material = prototype.material_of_disc.empty() ? prototype.disc_material
+                                                    : prototype.material_of_disc[hit.id.primitive];
   return true;
 }
 

@@ -2,8 +2,8 @@
 // scene is flat: each disc is an ellipse in the plane of (u, v) = (x - z dx/dz, y - z dy/dz), where a ray is
 // a point. A grid over that plane lists the ellipses that touch each square, highest first; a ray looks
 // through one short list instead of walking down a hierarchy. The answers are those of the Intersector to
-// float rounding. Periodic cells wrap in (u, v). For discs and the ground plane; scenes with meshes have none
-// (see make).
+// float rounding. Periodic cells wrap in (u, v). For discs and the ground plane; scenes with anything else
+// have none (see make).
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -18,8 +18,8 @@ class TracedScene;
 
 class ParallelRays {
  public:
-  // Null where the scene does not suit: meshes, discs wider than half a periodic cell, more than
-  // `most_bytes`. `towards`: unit, z > 0; from the scene to the sun or the sensor.
+  // Null where the scene does not suit: meshes, shapes, terrain, discs wider than half a periodic cell, more
+  // than `most_bytes`. `towards`: unit, z > 0; from the scene to the sun or the sensor.
   static std::unique_ptr<ParallelRays> make(const TracedScene& traced, const Scene& scene,
                                             const Eigen::Vector3d& towards, std::uint64_t most_bytes);
 

@@ -1,5 +1,6 @@
 #include "scene/structure/footprint.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -12,27 +13,34 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The plan view's hull of a prototype; of a disc, points on its rim.
-std::vector<Eigen::Vector2d> hull(const Prototype& prototype) {
+// Points of a prototype whose hull is near its own: of a disc and of a shape, points on the rim that is seen
+// along a direction (`up`).
+void outline(const Prototype& prototype, const Eigen::Vector3d& up, std::vector<Eigen::Vector3d>& points) {
   constexpr int rim_points = 24;
-  std::vector<Eigen::Vector2d> points;
-  for (const Disc& disc : prototype.discs) {
-    const Eigen::Vector3d n = disc.normal.cast<double>();
-    const Eigen::Vector2d centre = disc.centre_m.cast<double>().head<2>();
-    // The rim's shadow is an ellipse: radius across the tilt, radius * n_z along it.
-    const double level = n.head<2>().norm();
-    const Eigen::Vector2d along = level > 0 ? Eigen::Vector2d(n.head<2>() / level) : Eigen::Vector2d(1, 0);
-    for (int k = 0; k < rim_points; ++k) {
-      const double t = 2 * pi * k / rim_points;
-      const Eigen::Vector2d across(-along.y(), along.x());
-      points.push_back(centre +
-                       disc.radius_m * (std::cos(t) * across + std::sin(t) * std::abs(n.z()) * along));
+  const Eigen::Vector3d across = up.unitOrthogonal(), along = up.cross(across);
+  for (int k = 0; k < rim_points; ++k) {
+    const double t = 2 * pi * k / rim_points;
+    const Eigen::Vector3d d = std::cos(t) * across + std::sin(t) * along;
+    for (const Disc& disc : prototype.discs) {
+      const Eigen::Vector3d n = disc.normal.cast<double>(), in_plane = d - d.dot(n) * n;
+      const double length = in_plane.norm();
+      points.push_back(disc.centre_m.cast<double>());
+      if (length > 0) points.back() += disc.radius_m / length * in_plane;
     }
-    if (points.size() > 1'000'000) points = convex_hull(std::move(points));
+    for (const Shape& shape : prototype.shapes) points.push_back(shape_support(shape, d));
   }
   if (prototype.mesh)
-    for (const Eigen::Vector3f& p : prototype.mesh->positions_m) points.push_back(p.cast<double>().head<2>());
-  return convex_hull(std::move(points));
+    for (const Eigen::Vector3f& p : prototype.mesh->positions_m) points.push_back(p.cast<double>());
+}
+
+// The plan view's hull of a prototype under a rotation.
+std::vector<Eigen::Vector2d> hull(const Prototype& prototype, const Rotation& rotation) {
+  std::vector<Eigen::Vector3d> points;
+  outline(prototype, rotation.back(Eigen::Vector3d::UnitZ()), points);
+  std::vector<Eigen::Vector2d> plan;
+  plan.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) plan.push_back((rotation * p).head<2>());
+  return convex_hull(std::move(plan));
 }
 
 }  // namespace
@@ -65,13 +73,20 @@ Footprint::Footprint(const Scene& scene) {
     corners_ = {-half, {half.x(), -half.y()}, half, {-half.x(), half.y()}};
   } else {
     std::vector<std::vector<Eigen::Vector2d>> hulls;
-    for (const Prototype& prototype : scene.prototypes) hulls.push_back(hull(prototype));
+    for (const Prototype& prototype : scene.prototypes) hulls.push_back(hull(prototype, {}));
     std::vector<Eigen::Vector2d> all;
+    const auto add = [&](const Instance& i, const Eigen::Vector2d& p) {
+      all.push_back(i.position_m.head<2>() + i.scale * p);
+      constexpr std::size_t many = 10'000'000;
+      if (all.size() > many) all = convex_hull(std::move(all));
+    };
     for (const Instance& i : scene.instances) {
-      const double c = std::cos(i.rotation), s = std::sin(i.rotation);
-      for (const Eigen::Vector2d& p : hulls[i.prototype])
-        all.push_back(i.position_m.head<2>() +
-                      i.scale * Eigen::Vector2d(c * p.x() - s * p.y(), s * p.x() + c * p.y()));
+      if (i.rotation.upright()) {
+        for (const Eigen::Vector2d& p : hulls[i.prototype])
+          add(i, (i.rotation * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
+      } else {
+        for (const Eigen::Vector2d& p : hull(scene.prototypes[i.prototype], i.rotation)) add(i, p);
+      }
     }
     corners_ = convex_hull(std::move(all));
   }

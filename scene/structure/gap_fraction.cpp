@@ -28,8 +28,9 @@ std::vector<double> usual_gap_angles_deg() {
   return out;
 }
 
-std::vector<Gap> gap_fraction(const Intersector& intersector, const Footprint& footprint, double ground_m,
-                              const std::vector<double>& zenith_deg, const GapOptions& options) {
+std::vector<Gap> gap_fraction(const Intersector& intersector, const Footprint& footprint,
+                              const Ground& ground, const std::vector<double>& zenith_deg,
+                              const GapOptions& options) {
   const std::uint32_t each = std::bit_ceil(std::max(1u, (options.rays + batches - 1) / batches));
   std::vector<double> share(zenith_deg.size() * batches);
   parallel_for(share.size(), [&](std::size_t task) {
@@ -41,7 +42,11 @@ std::vector<Gap> gap_fraction(const Intersector& intersector, const Footprint& f
       const Eigen::Vector2d at = footprint.point(sobol_owen(i, 0, stream), sobol_owen(i, 1, stream));
       const double azimuth = 2 * pi * sobol_owen(i, 2, stream);
       Ray ray;
-      ray.origin = Eigen::Vector3d(at.x(), at.y(), ground_m).cast<float>();
+      // Off terrain by more than its rounding; the plane is named and not met again.
+      constexpr double hair = 1e-5;
+      const double level = ground.height_at(at);
+      const double lift = ground.terrain ? hair * (at.cwiseAbs().maxCoeff() + std::abs(level) + 1) : 0;
+      ray.origin = Eigen::Vector3d(at.x(), at.y(), level + lift).cast<float>();
       ray.direction = Eigen::Vector3d(std::sin(zenith) * std::cos(azimuth),
                                       std::sin(zenith) * std::sin(azimuth), std::cos(zenith))
                           .cast<float>();

@@ -21,8 +21,9 @@ struct Gap {
   double p = 0;
   double standard_error = 0;
 };
-std::vector<Gap> gap_fraction(const Intersector& intersector, const Footprint& footprint, double ground_m,
-                              const std::vector<double>& zenith_deg, const GapOptions& options = {});
+std::vector<Gap> gap_fraction(const Intersector& intersector, const Footprint& footprint,
+                              const Ground& ground, const std::vector<double>& zenith_deg,
+                              const GapOptions& options = {});
 
 std::vector<double> usual_gap_angles_deg();  // 0, 5, ... 85 and 57.5
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulate/materials/bumped_normal.h"
 #include "simulate/transport/basis.h"
 #include "simulate/transport/interactions.h"
 #include "simulate/transport/lane_tally.h"
@@ -195,6 +196,7 @@ bool Wave<Tally>::meet(Path& path, int order) {
   path.position = hit.position;
   path.normal = path.shading = hit.geometric_normal;
   if (sampling_.interpolated_normals) path.shading = hit.shading_normal;
+  if (!stage_.optics.maps.empty()) bend(path, hit);
   path.surface = hit.id;
   path.extent = hit.extent;
   path.material = material_at(hit);
@@ -210,6 +212,16 @@ std::uint32_t Wave<Tally>::material_at(const Hit& hit) const {
   const SurfaceMaps& maps = stage_.optics.maps[hit.material];
   return maps.map != nullptr ? maps.materials[static_cast<std::size_t>(maps.map->nearest(hit.uv))]
                              : hit.material;
+}
+
+// Tilts the normal by the slopes of a bump map.
+template <class Tally>
+void Wave<Tally>::bend(Path& path, const Hit& hit) const {
+  const SurfaceMaps& maps = stage_.optics.maps[hit.material];
+  if (maps.bump == nullptr) return;
+  const Raster::Sloped there = maps.bump->bilinear(hit.uv);
+  path.shading = bumped_normal(path.shading, hit.dp_du, hit.dp_dv,
+                               maps.bump_m * Eigen::Vector2f(there.per_u, there.per_v));
 }
 
 // The radiance of the sky there over its mean, by traced band; null where it is the same everywhere.

@@ -50,6 +50,7 @@ class Wave {
   void receive_sun(const Eigen::Vector3f& normal, const Ray& ray, Path& path);
   bool meet(Path& path, int order);
   std::uint32_t material_at(const Hit& hit) const;
+  void bend(Path& path, const Hit& hit) const;
   void escape(const Path& path, int order);
   void go_on(Path& path, int order);
   bool interact(Path& path, int order);

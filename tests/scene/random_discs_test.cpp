@@ -63,7 +63,7 @@ void expect_gaps(LeafAngles angles, std::uint64_t first_seed) {
     const Scene scene = random_disc_scene(what);
     discs = static_cast<double>(scene.prototypes[0].discs.size());
     const std::vector<Gap> gaps =
-        gap_fraction(Intersector(scene), Footprint(scene), 0, zenith, {1u << 14, what.seed});
+        gap_fraction(Intersector(scene), Footprint(scene), Ground{}, zenith, {1u << 14, what.seed});
     for (std::size_t k = 0; k < zenith.size(); ++k) {
       sum[k] += gaps[k].p;
       squares[k] += gaps[k].p * gaps[k].p;
@@ -133,7 +133,7 @@ TEST(GapFraction, IsTheSameOnSevenThreadsAsOnOne) {
   const Intersector intersector(scene);
   const auto with = [&](int count) {
     set_threads(count);
-    auto out = gap_fraction(intersector, Footprint(scene), 0, usual_gap_angles_deg(), {1u << 11, 5});
+    auto out = gap_fraction(intersector, Footprint(scene), Ground{}, usual_gap_angles_deg(), {1u << 11, 5});
     set_threads(0);
     return out;
   };
@@ -154,10 +154,10 @@ TEST(GapFraction, StandardErrorsCoverTheTruth) {
   const Intersector intersector(scene);
   const Footprint footprint(scene);
   const std::vector<double> zenith{0, 20, 40, 60};
-  const std::vector<Gap> truth = gap_fraction(intersector, footprint, 0, zenith, {1u << 18, 99});
+  const std::vector<Gap> truth = gap_fraction(intersector, footprint, Ground{}, zenith, {1u << 18, 99});
   int inside = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const std::vector<Gap> gaps = gap_fraction(intersector, footprint, 0, zenith, {1u << 12, seed});
+    const std::vector<Gap> gaps = gap_fraction(intersector, footprint, Ground{}, zenith, {1u << 12, seed});
     for (std::size_t k = 0; k < zenith.size(); ++k, ++all)
       inside += std::abs(gaps[k].p - truth[k].p) <
                 2.04 * std::hypot(gaps[k].standard_error, truth[k].standard_error);

@@ -37,6 +37,14 @@ positions = [[1, 2, 3], [1, 2, 4, 180]]
 scale = 2
 )";
 
+// Of an upright instance, in [0, 2 pi); float quaternions are good to 1e-7.
+double turned_about_z(const Instance& instance) {
+  EXPECT_TRUE(instance.rotation.upright());
+  const Eigen::Vector3d x = instance.rotation * Eigen::Vector3d::UnitX();
+  const double angle = std::atan2(x.y(), x.x());
+  return angle < 0 ? angle + 2 * pi : angle;
+}
+
 class SceneFile : public ::testing::Test {
  protected:
   SceneFile() {
@@ -73,9 +81,9 @@ TEST_F(SceneFile, IsReadInFull) {
   EXPECT_EQ(scene.prototypes[0].discs[0].normal, Eigen::Vector3f(0, 0, 1));
   EXPECT_EQ(scene.prototypes[0].disc_material, 1u);
   ASSERT_EQ(scene.instances.size(), 4u);
-  EXPECT_NEAR(scene.instances[1].rotation, pi / 2, 1e-12);
+  EXPECT_NEAR(turned_about_z(scene.instances[1]), pi / 2, 1e-6);
   EXPECT_EQ(scene.instances[1].scale, 1);
-  EXPECT_NEAR(scene.instances[3].rotation, pi, 1e-12);
+  EXPECT_NEAR(turned_about_z(scene.instances[3]), pi, 1e-6);
   EXPECT_EQ(scene.instances[3].scale, 2);
   EXPECT_EQ(scene.inputs.size(), 3u);
 }
@@ -121,7 +129,7 @@ TEST_F(SceneFile, NamesWhatIsWrongAndWhere) {
       {"size_m = [10.0, 8.0]\n", "", "needs its size"},
       {"\"periodic\"", "\"periodical\"", "did you mean 'periodic'"},
       {"\"east_counterclockwise\"", "\"north\"", "scene.toml:4"},
-      {"type = \"plane\"", "type = \"dem\"", "terrain is not built yet"},
+      {"type = \"plane\"", "type = \"dem\"", "missing key 'file'"},
       {"material = \"soil\"", "material = \"soul\"", "did you mean 'soil'"},
       {"material = \"soil\"", "colour = 3", "missing key 'material'"},
       {"material = \"leaf\"", "material = \"lead\"",
@@ -129,7 +137,7 @@ TEST_F(SceneFile, NamesWhatIsWrongAndWhere) {
       {"material = \"leaf\"", "", "needs material"},
       {"material = \"leaf\"", "materials = { leaf = \"leaf\" }", "discs have one material"},
       {"discs = \"crown.def\"", "librat = \"x.obj\"", "not built yet"},
-      {"discs = \"crown.def\"", "", "needs one of discs, plant, mesh"},
+      {"discs = \"crown.def\"", "", "needs one of discs, plant, mesh, shapes, patches, parts"},
       {"discs = \"crown.def\"", "discs = \"crown.def\"\nmesh = \"leaf.obj\"", "needs one of"},
       {"prototype = \"crown\"", "prototype = \"clown\"", "did you mean 'crown'"},
       {"[[1, 2, 3], [1, 2, 4, 180]]", "[[1, 2]]", "expected [x, y, z]"},
