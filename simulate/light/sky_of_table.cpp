@@ -33,7 +33,7 @@ Sky read_map_sky(const TomlValue& table, const LightContext& context) {
   const double scale = scale_key ? scale_key.positive() : 1.0;
   std::vector<double> among(bands, 0.0);  // position among the table's wavelengths
   if (!sky.wavelength_nm.empty()) {
-    Curve position{path, sky.wavelength_nm, {}};
+    ColumnCurve position{path, sky.wavelength_nm, {}};
     for (std::size_t w = 0; w < sky.wavelength_nm.size(); ++w) position.y.push_back(static_cast<double>(w));
     among = at_bands(position, context.bands, file);
   }
