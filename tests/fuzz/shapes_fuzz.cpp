@@ -16,7 +16,8 @@ void cross(const bpms::Shape& shape) {
   bpms::shape_box(shape, middle, half);
   if (!middle.allFinite() || !half.allFinite() || !std::isfinite(bpms::shape_area_m2(shape))) std::abort();
   const double size = half.norm();
-  for (const Eigen::Vector3d& d : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, -0.8), Eigen::Vector3d(1, 0, 0)}) {
+  for (const Eigen::Vector3d& d :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, -0.8), Eigen::Vector3d(1, 0, 0)}) {
     std::array<bpms::ShapeCrossing, 2> out;
     const int count = bpms::shape_crossings(shape, middle - 3 * size * d, d, out);
     for (int k = 0; k < count; ++k) {
@@ -38,7 +39,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   bpms::fuzz::answer("fuzz.shapes", [&] {
     bpms::Scene scene;
     bpms::MaterialNames names(scene);
-    for (const bpms::Shape& shape : bpms::parse_shape_list("fuzz.shapes", text, "bark", {"fuzz.shapes"}, names)) {
+    for (const bpms::Shape& shape :
+         bpms::parse_shape_list("fuzz.shapes", text, "bark", {"fuzz.shapes"}, names)) {
       if (shape.material >= scene.materials.size()) std::abort();
       cross(shape);
     }
