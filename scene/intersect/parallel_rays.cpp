@@ -50,6 +50,14 @@ bool ParallelRays::build(std::uint64_t most_bytes) {
   std::vector<Bounds> bounds(count);
   if (!flatten(bounds)) return false;
   lay_grid(bounds);
+  // Into the cell: under a low sun a disc's shadow lies many periods away.
+  if (scene_->domain.periodic) {
+    const Eigen::Vector2d size = scene_->domain.size_m;
+    for (Bounds& box : bounds) {
+      box.u -= size.x() * std::floor((box.u - low_.x()) / size.x());
+      box.v -= size.y() * std::floor((box.v - low_.y()) / size.y());
+    }
+  }
   for (std::size_t id = 0; id < bounds.size(); ++id) {
     ellipses_[id].u = static_cast<float>(bounds[id].u - low_.x());
     ellipses_[id].v = static_cast<float>(bounds[id].v - low_.y());

@@ -84,6 +84,7 @@ void expect_the_same(bool periodic, double zenith) {
 TEST(ParallelRays, AgreeWithTheHierarchyInAPeriodicCell) {
   expect_the_same(true, 0);
   expect_the_same(true, radians(50));
+  expect_the_same(true, radians(75));  // shadows fall several periods away
 }
 
 TEST(ParallelRays, AgreeWithTheHierarchyInAnOpenScene) {
