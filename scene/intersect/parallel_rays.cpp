@@ -247,8 +247,9 @@ void ParallelRays::describe(std::uint32_t instance, std::uint32_t primitive, Hit
 }
 
 void ParallelRays::prefetch(const Eigen::Vector3f& point) const {
+  if (rest_.empty()) return;
   const Eigen::Vector2d at = flat(point);
-  if (!rest_.empty()) rest_.prefetch(at.x(), at.y());
+  rest_.prefetch(at.x(), at.y());
 }
 
 std::uint64_t ParallelRays::memory_bytes() const {

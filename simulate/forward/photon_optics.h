@@ -20,6 +20,7 @@ class PhotonOptics {
     return absorbed_.data() + (2 * material + (front ? 0 : 1)) * width;
   }
   float reflect_share(std::uint32_t material, bool front) const { return share_[material][front ? 0 : 1]; }
+  float largest_factor() const { return *std::max_element(factors_.begin(), factors_.end()); }
   bool opaque(std::uint32_t material) const { return opaque_[material] != 0; }
 
  private:

@@ -111,6 +111,9 @@ TEST(Fluxes, BareGround) {
   EXPECT_NEAR(flux(result, Flux::absorbed_ground).value, 0.7, 1e-7);
   EXPECT_NEAR(flux(result, Flux::transmitted_direct).value, 1.0, 1e-12);
   EXPECT_NEAR(result.entering[0][0], pi * 4, 1e-9);
+  scene.sun.clear();
+  scene.sky = white_sky;
+  EXPECT_NEAR(flux(fluxes_of(simulation_of(folder, scene)), Flux::absorbed_ground).value, 0.7, 1e-7);
 }
 
 // A black card over the western half of a cell, the sun overhead.
