@@ -18,6 +18,7 @@ constexpr float nowhere = -std::numeric_limits<float>::infinity();
 FlatDiscs::FlatDiscs(const Eigen::Vector3d& slope, const std::optional<Eigen::Vector2d>& period)
     : slope_(slope), period_(period), wrap_u_(std::numeric_limits<float>::infinity()), wrap_v_(wrap_u_) {
   if (!period) return;
+  per_period_ = period->cwiseInverse();
   wrap_u_ = static_cast<float>(period->x());
   wrap_v_ = static_cast<float>(period->y());
 }
@@ -113,11 +114,13 @@ void FlatDiscs::lay_grid() {
   rows_ = std::max(1L, static_cast<long>(size.y() / side));
   tiles_across_ = (columns_ + tile - 1) / tile;
   squares_m_ = {size.x() / static_cast<double>(columns_), size.y() / static_cast<double>(rows_)};
+  squares_per_m_ = squares_m_.cwiseInverse();
 }
 
 std::size_t FlatDiscs::number_of(long column, long row) const {
-  const long in_tile = row % tile * tile + column % tile;
-  return static_cast<std::size_t>((row / tile * tiles_across_ + column / tile) * tile * tile + in_tile);
+  const auto c = static_cast<std::size_t>(column), r = static_cast<std::size_t>(row);
+  return (r / tile * static_cast<std::size_t>(tiles_across_) + c / tile) * (tile * tile) + r % tile * tile +
+         c % tile;
 }
 
 std::size_t FlatDiscs::squares() const {
@@ -148,11 +151,11 @@ void FlatDiscs::squares_of(const Bounds& e, Visit visit) const {
 bool FlatDiscs::spot(double u, double v, Spot& out) const {
   double x = u - low_.x(), y = v - low_.y();
   if (period_) {
-    x -= period_->x() * std::floor(x / period_->x());
-    y -= period_->y() * std::floor(y / period_->y());
+    x -= period_->x() * whole_below(x * per_period_.x());
+    y -= period_->y() * whole_below(y * per_period_.y());
   }
-  auto column = static_cast<long>(std::floor(x / squares_m_.x())),
-       row = static_cast<long>(std::floor(y / squares_m_.y()));
+  auto column = static_cast<long>(whole_below(x * squares_per_m_.x())),
+       row = static_cast<long>(whole_below(y * squares_per_m_.y()));
   if (period_) column = std::clamp(column, 0L, columns_ - 1), row = std::clamp(row, 0L, rows_ - 1);
   if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return false;
   out.square = number_of(column, row);

@@ -9,6 +9,12 @@
 
 namespace bpms {
 
+// std::floor, which is a call where the processor is not known to have it.
+inline double whole_below(double x) {
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
+  return whole > x ? whole - 1 : whole;
+}
+
 class FlatDiscs {
  public:
   static constexpr std::uint32_t none = 0xffffffffu;
@@ -66,6 +72,7 @@ class FlatDiscs {
   float wrap_u_, wrap_v_;  // infinite where there is no period
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero(), high_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d squares_m_ = Eigen::Vector2d::Ones();  // sides, which close on a period
+  Eigen::Vector2d squares_per_m_ = Eigen::Vector2d::Ones(), per_period_ = Eigen::Vector2d::Zero();
   float top_ = 0;
   long columns_ = 1, rows_ = 1;
   long tiles_across_ = 1;       // squares are numbered by tiles: neighbours are near in memory

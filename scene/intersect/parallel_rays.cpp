@@ -143,21 +143,20 @@ void ParallelRays::list_standing() {
 
 Eigen::Vector2d ParallelRays::flat(const Eigen::Vector3f& point) const {
   const Eigen::Vector3d p = point.cast<double>();
-  Eigen::Vector2d at = p.head<2>() - p.z() * shear_;
-  if (scene_->domain.periodic) {
-    const Eigen::Vector2d& size = scene_->domain.size_m;
-    for (int axis = 0; axis < 2; ++axis)
-      at[axis] -= size[axis] * std::floor((at[axis] + 0.5 * size[axis]) / size[axis]);
-  }
-  return at;
+  return p.head<2>() - p.z() * shear_;
 }
 
 // What stands over the ray and reaches above that height, until visit(...) says true; highest first.
 template <class Visit>
-void ParallelRays::visit_standing(const Eigen::Vector2d& at, float above, Visit visit) const {
+void ParallelRays::visit_standing(Eigen::Vector2d at, float above, Visit visit) const {
   if (standing_.empty()) return;
-  const auto column = static_cast<long>(std::floor((at.x() - low_.x()) * squares_per_m_.x())),
-             row = static_cast<long>(std::floor((at.y() - low_.y()) * squares_per_m_.y()));
+  if (scene_->domain.periodic) {
+    const Eigen::Vector2d& size = scene_->domain.size_m;
+    for (int axis = 0; axis < 2; ++axis)
+      at[axis] -= size[axis] * whole_below((at[axis] + 0.5 * size[axis]) / size[axis]);
+  }
+  const auto column = static_cast<long>(whole_below((at.x() - low_.x()) * squares_per_m_.x())),
+             row = static_cast<long>(whole_below((at.y() - low_.y()) * squares_per_m_.y()));
   if (!scene_->domain.periodic && (column < 0 || column > coarse || row < 0 || row > coarse)) return;
   const auto square = static_cast<std::size_t>(std::clamp(row, 0L, coarse - 1L) * coarse +
                                                std::clamp(column, 0L, coarse - 1L));

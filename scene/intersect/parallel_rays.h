@@ -48,9 +48,9 @@ class ParallelRays {
   void stand(std::uint32_t instance, std::uint32_t group);
   void list_standing();
   void add_discs(std::uint32_t instance, bool at_origin, FlatDiscs& to) const;
-  Eigen::Vector2d flat(const Eigen::Vector3f& point) const;  // (u, v), in the cell
+  Eigen::Vector2d flat(const Eigen::Vector3f& point) const;  // (u, v)
   template <class Visit>
-  void visit_standing(const Eigen::Vector2d& at, float above, Visit visit) const;
+  void visit_standing(Eigen::Vector2d at, float above, Visit visit) const;
   void describe(std::uint32_t instance, std::uint32_t primitive, Hit& hit) const;
 
   const TracedScene* traced_;

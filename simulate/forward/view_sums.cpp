@@ -31,7 +31,14 @@ ViewSums::ViewSums(const PhotonStage& stage, const Sensor& sensor, std::size_t v
       rows_(2 * static_cast<std::size_t>(orders) + 2),
       towards_(sensor.parallel(view)->cast<float>()),
       sums_(batches * rows_ * stage.optics.bands, 0.0),
-      counts_(batches) {
+      counts_(batches),
+      ray_groups_(batches * groups * stage.optics.bands, 0.0),
+      photon_groups_(ray_groups_),
+      of_sun_(stage.optics.bands, 0.0),
+      of_sky_(of_sun_) {
+  const Light& light = stage.simulation->light;
+  if (light.sun) of_sun_ = light.sun->irradiance;
+  if (light.sky) of_sky_ = light.sky->radiance;
   for (ViewCounts& counts : counts_) {
     counts.sunlit.resize(stage.simulation->materials.size());
     counts.shaded.resize(stage.simulation->materials.size());
@@ -45,7 +52,7 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays, const
   const Eigen::Vector3f to_sun = sun ? sun->direction.cast<float>().eval() : Eigen::Vector3f::UnitZ();
   struct Start {
     Ray ray;
-    std::uint32_t batch;
+    std::uint32_t batch, group;
   };
   std::vector<Start> starts;
   std::vector<std::uint64_t> order, spare;
@@ -61,7 +68,8 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays, const
                                                      {{0, 0}, {1, 1}, 1, 0})}
                             << 32 |
                         starts.size());
-        starts.push_back({sensor_->start(view_, u, v, stage_->extent), static_cast<std::uint32_t>(batch)});
+        starts.push_back({sensor_->start(view_, u, v, stage_->extent), static_cast<std::uint32_t>(batch),
+                          static_cast<std::uint32_t>(batch * groups + sample % groups)});
       }
     }
     sort_places(order, spare);
@@ -94,6 +102,7 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays, const
       for (std::size_t b = 0; b < optics.bands; ++b) {
         const auto value = static_cast<double>(factor[b] * std::abs(cosine) * one_over_pi);
         one[b] += value;
+        ray_groups_[start.group * optics.bands + b] += value * of_sun_[b];
         if (hit.ground) ground[b] += value;
       }
     }
@@ -138,8 +147,13 @@ void ViewSums::add_vertices(const PathVertices& vertices, const ParallelRays* vi
                              : stage_->intersector->occluded({v.position, towards_, 1e30f, v.surface()}))
       continue;
     double* to = sum(v.batch, v.sky != 0 ? BatchMeans::sky(v.order) : BatchMeans::sun(v.order));
-    for (std::size_t b = 0; b < optics.bands; ++b)
-      to[b] += static_cast<double>(weight[b] * factor[b] * geometry);
+    double* group = photon_groups_.data() + (v.batch * groups + v.sample % groups) * optics.bands;
+    const std::vector<double>& unit = v.sky != 0 ? of_sky_ : of_sun_;
+    for (std::size_t b = 0; b < optics.bands; ++b) {
+      const auto value = static_cast<double>(weight[b] * factor[b] * geometry);
+      to[b] += value;
+      group[b] += value * unit[b];
+    }
   }
 }
 
@@ -172,10 +186,19 @@ ViewSums::Variances ViewSums::variances() const {
     }
   }
   Variances out;
+  // Of one sample, from groups of so many; where the points' evenness pays, the batches show it.
+  const auto of_one = [&](const std::vector<double>& sums, std::uint64_t done, std::size_t b,
+                          double batch_error) {
+    const double each = static_cast<double>(done) / static_cast<double>(groups);
+    Moments moments(1);
+    for (std::size_t g = 0; g < batches * groups; ++g) moments.add(0, sums[g * bands + b] / each, g);
+    const double error = moments.standard_error(0, batches * groups);
+    constexpr double noise = 1.25;
+    return std::min(error * error, noise * batch_error * batch_error) * static_cast<double>(done * batches);
+  };
   for (std::size_t b = 0; b < bands; ++b) {
-    const double a = by_rays.standard_error(b, batches), c = by_photons.standard_error(b, batches);
-    out.ray.push_back(a * a * static_cast<double>(rays_ * batches));
-    out.photon.push_back(c * c * static_cast<double>(photons_ * batches));
+    out.ray.push_back(of_one(ray_groups_, rays_, b, by_rays.standard_error(b, batches)));
+    out.photon.push_back(of_one(photon_groups_, photons_, b, by_photons.standard_error(b, batches)));
     out.standard_error.push_back(all.standard_error(b, batches));
     out.value.push_back(all.mean(b));
   }

@@ -24,7 +24,8 @@ class ViewSums {
   std::uint64_t photons() const { return photons_; }  // a batch
   BatchMeans means(std::size_t batch) const;
   const ViewCounts& counts(std::size_t batch) const { return counts_[batch]; }
-  // Of the total's parts, per band: the variance of one ray and of one photon path.
+  // Of the total's parts, per band: the variance of one ray and of one photon path, for plans: from more
+  // groups than there are batches, since 32 means leave a variance a quarter uncertain.
   struct Variances {
     std::vector<double> ray, photon, standard_error, value;
   };
@@ -46,6 +47,9 @@ class ViewSums {
   std::uint64_t rays_ = 0, photons_ = 0;
   std::vector<double> sums_;  // batches x rows of BatchMeans x bands
   std::vector<ViewCounts> counts_;
+  static constexpr std::size_t groups = 8;          // of a batch, by sample
+  std::vector<double> ray_groups_, photon_groups_;  // totals in units of radiance: batches x groups x bands
+  std::vector<double> of_sun_, of_sky_;             // radiance per unit of a row, per band
 };
 
 }  // namespace bpms
