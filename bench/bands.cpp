@@ -34,7 +34,7 @@ void set_bands(Simulation& simulation, std::size_t count) {
   simulation.bands.wavelengths_nm.resize(count);
   for (std::size_t band = 0; band < count; ++band)
     simulation.bands.wavelengths_nm[band] = 400 + static_cast<double>(band);
-  auto& irradiance = simulation.light.sun->irradiance;
+  auto& irradiance = simulation.light.suns.front().irradiance;
   irradiance.assign(count, irradiance[0]);
 }
 

@@ -39,8 +39,8 @@ Simulation homogeneous(const std::string& data_folder, const std::vector<double>
   text += "[sensor]\nname = \"pp\"\ntype = \"brf\"\nplane = \"principal\"\nvza_deg = [";
   for (const double vza : vza_deg) text += fmt::format("{}, ", vza);
   const TomlDocument document = TomlDocument::parse("benchmark", text + "]\n");
-  out.light = read_light(document.root(), scene.domain, out.bands, out.inputs);
-  out.sensors.push_back(read_sensor(document.root().get("sensor"), scene.domain, out.light));
+  out.light = read_light(document.root(), scene.domain, out.bands, out.inputs, out.scene.notes);
+  out.sensors.push_back(read_sensor(document.root().get("sensor"), {out.scene, out.light, out.inputs, out.scene.notes}));
   return out;
 }
 

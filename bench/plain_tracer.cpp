@@ -140,7 +140,7 @@ PlainResult PlainTracer::trace(double vza_deg, std::uint64_t paths, std::uint64_
   const auto& leaf = simulation.materials[0];
   const auto& soil = simulation.materials[1];
   const Domain& domain = simulation.scene.domain;
-  const Vector3f to_sun = simulation.light.sun->direction.cast<float>();
+  const Vector3f to_sun = simulation.light.suns.front().direction.cast<float>();
   const Vector3f down = -direction_from_angles(radians(vza_deg), radians(180), domain).cast<float>();
   std::mt19937 generator(static_cast<std::uint32_t>(seed));
   std::uniform_real_distribution<float> uniform(0, 1);
@@ -162,7 +162,7 @@ PlainResult PlainTracer::trace(double vza_deg, std::uint64_t paths, std::uint64_
                                 : cosine > 0 ? leaf.reflectance[0][b]
                                              : leaf.transmittance[b];
           value[b] += weight[b] * factor * std::abs(static_cast<double>(cosine)) *
-                      simulation.light.sun->irradiance[b] / pi;
+                      simulation.light.suns.front().irradiance[b] / pi;
         }
       }
       bool reflect = true;

@@ -16,7 +16,8 @@ Sampling read_sampling(const TomlValue& table) {
   Sampling out;
   const TomlValue target = table.get("target_se");
   const TomlValue samples = table.get("samples");
-  for (const char* other : {"max_samples", "max_seconds", "max_order", "orders", "roulette", "share_paths"})
+  for (const char* other : {"max_samples", "max_seconds", "max_order", "orders", "roulette", "share_paths",
+                            "diffuse_rays", "normals", "shadow"})
     table.get(other);
   if (static_cast<bool>(target) == static_cast<bool>(samples))
     table.reject_choice("expected one of target_se and samples");
@@ -30,6 +31,13 @@ Sampling read_sampling(const TomlValue& table) {
     out.max_order = static_cast<int>(order.integer(0, 100000));
   if (const TomlValue orders = table.get("orders")) out.orders = static_cast<int>(orders.integer(1, 1000));
   out.roulette = table.boolean_or("roulette", true);
+  constexpr int most_branches = 255;
+  if (const TomlValue rays = table.get("diffuse_rays"))
+    out.diffuse_rays = static_cast<int>(rays.integer(1, most_branches));
+  if (const TomlValue normals = table.get("normals"))
+    out.interpolated_normals = normals.one_of({"geometric", "interpolated"}) == "interpolated";
+  if (const TomlValue shadow = table.get("shadow"))
+    out.attenuate_shadows = shadow.one_of({"block", "attenuate"}) == "attenuate";
   if (const TomlValue share = table.get("share_paths"))
     if (share.boolean()) share.reject("sharing paths between views is not built yet: expected false");
   return out;
@@ -72,13 +80,14 @@ Simulation parse_simulation(const std::string& path, std::string_view text) {
   Simulation out;
   out.scene = read_scene_geometry(document);
   out.inputs = out.scene.inputs;
-  out.bands = read_bands(root.get("bands"));
+  out.bands = read_bands(root.get("bands"), out.inputs);
   out.materials = read_materials(root.get("materials"), out.scene, out.bands, out.inputs);
-  out.light = read_light(root.require("illumination"), out.scene.domain, out.bands, out.inputs);
+  out.light =
+      read_light(root.require("illumination"), out.scene.domain, out.bands, out.inputs, out.scene.notes);
   const TomlValue sensors = root.require("sensors");
   if (!sensors.is_array() || sensors.size() == 0) sensors.reject("expected at least one [[sensors]]");
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    out.sensors.push_back(read_sensor(sensors[i], out.scene.domain, out.light));
+    out.sensors.push_back(read_sensor(sensors[i], {out.scene, out.light, out.inputs, out.scene.notes}));
     for (std::size_t k = 0; k < i; ++k)
       if (out.sensors[k]->name == out.sensors[i]->name)
         sensors[i].require("name").reject(fmt::format("a second sensor named \"{}\"", out.sensors[i]->name));

@@ -24,6 +24,12 @@ struct Sampling {
   int max_order = 0;       // 0: until roulette ends it
   int orders = 0;          // scattering orders kept apart, the last holds all higher ones; 0: chosen
   bool roulette = true;
+  int diffuse_rays = 1;               // that go on from the first interaction
+  bool interpolated_normals = false;  // of meshes, for scattering; else geometric normals
+  // ARARAT's habit: diffusely transmitting surfaces weaken a shadow ray and do not block it (counts that
+  // light twice).
+  bool attenuate_shadows = false;
+  bool keep_interactions = false;  // for other spectra afterwards
 };
 // "0.0002" or "0.1%".
 void set_target_se(Sampling& sampling, const std::string& text, const SourceLocation& where);
@@ -52,10 +58,12 @@ inline constexpr int every_order = -1;
 const char* name_of(Origin origin);
 const char* name_of(Component component);
 
+inline constexpr int every_sun = -1;
 struct Part {
   Origin origin = Origin::total;
   Component component = Component::all;
   int order = every_order;
+  int sun = every_sun;  // of several: this one's light alone
 };
 
 struct Estimates {
@@ -64,15 +72,32 @@ struct Estimates {
   void resize(std::size_t size);
 };
 
+// How often each spectrum multiplied the light of a view: a node is a monomial in the factors (spectra of the
+// materials, see factor_names), with the mean over the paths of each batch of what no band changes: for each
+// sun the light per unit of irradiance / pi, for the sky per unit of radiance, for each sun again the part of
+// it by way of the ground alone (order 1).
+struct InteractionHistogram {
+  std::size_t factors = 0, sums_per_node = 0, batches = 0;
+  std::vector<std::uint16_t> exponents;  // nodes x factors
+  std::vector<double> sums;              // nodes x sums_per_node x batches
+  std::size_t nodes() const { return factors == 0 ? 0 : exponents.size() / factors; }
+};
+// "leaf.reflectance", "leaf.reflectance_back", "leaf.transmittance" of each material, then "leaf.lobe1" ...
+std::vector<std::string> factor_names(const Simulation& simulation);
+
 struct SensorResult {
   const Sensor* sensor = nullptr;
   std::vector<Part> parts;
   std::vector<Estimates> radiance;  // for each part: views x bands
   Estimates gap;                    // per view: rays that meet no canopy on their way to the ground or out
-  Estimates sunlit, shaded;         // views x materials: of the view, by the material met first
+  // Of the view, by the material met first: views x suns x materials. lit_behind: of the sunlit part, what is
+  // lit on the face that is not seen.
+  Estimates sunlit, shaded, lit_behind;
+  Estimates sunlit_ground;  // views x suns: the bidirectional gap probability
   std::vector<double>
       truncation;  // views x bands: what max_order leaves out, estimated; empty without max_order
-  std::vector<std::uint64_t> samples;  // per view; 0 when an interrupt came before
+  std::vector<std::uint64_t> samples;            // per view; 0 when an interrupt came before
+  std::vector<InteractionHistogram> histograms;  // per view, when they were asked for
   std::uint64_t rays = 0;
   std::uint64_t lost = 0;  // paths ended by the wrap limit of a periodic domain
 };

@@ -43,7 +43,8 @@ std::string check_scene(const std::string& path) {
   for (const auto& sensor : simulation.sensors) views += sensor->views();
   return fmt::format("{} instances of {} prototypes, {} materials, {} sensors, {} views, {} bands",
                      simulation.scene.instances.size(), simulation.scene.prototypes.size(),
-                     simulation.materials.size(), simulation.sensors.size(), views, simulation.bands.count());
+                     simulation.materials.size(), simulation.sensors.size(), views,
+                     simulation.bands.written());
 }
 
 const std::vector<FileKind>& kinds() {

@@ -5,7 +5,6 @@
 
 #include "core/csv.h"
 #include "core/text.h"
-#include "simulate/number_list.h"
 
 namespace bpms {
 namespace {
@@ -85,23 +84,6 @@ void require_within(const TomlValue& value, double number, double low, double hi
 
 }  // namespace
 
-std::string Bands::name(std::size_t band) const {
-  if (wavelengths_nm.empty()) return fmt::format("band {}", band + 1);
-  return fmt::format("band {} ({} nm)", band + 1, wavelengths_nm[band]);
-}
-
-Bands read_bands(const TomlValue& table) {
-  Bands out;
-  if (!table) return out;
-  if (const TomlValue response = table.get("response"))
-    response.reject("band response functions are not built yet: give wavelengths_nm");
-  const TomlValue list = table.require("wavelengths_nm");
-  out.wavelengths_nm = read_number_list(list, [](const TomlValue& value) {
-    return value.number(shortest_wavelength_nm, longest_wavelength_nm);
-  });
-  return out;
-}
-
 std::vector<double> read_spectrum(const TomlValue& value, const Bands& bands, double low, double high,
                                   std::vector<std::string>& inputs) {
   if (value.is_number()) {
@@ -118,10 +100,15 @@ std::vector<double> read_spectrum(const TomlValue& value, const Bands& bands, do
   } else {
     value.reject("expected a number, a table [[nm, value], ...] or \"spectrum.csv\"");
   }
-  if (bands.wavelengths_nm.empty()) value.reject("a spectrum needs [bands] wavelengths_nm");
+  if (bands.wavelengths_nm.empty()) value.reject("a spectrum needs [bands] wavelengths_nm or response");
   std::vector<double> out;
   for (std::size_t band = 0; band < bands.count(); ++band) {
     const double nm = bands.wavelengths_nm[band];
+    constexpr double micrometres = 30;  // no spectrum in nm ends there
+    if (table.nm.back() < micrometres && nm > micrometres)
+      value.reject(
+          fmt::format("{} is given from {} to {}: expected nanometres, and these look like micrometres",
+                      value.name(), table.nm.front(), table.nm.back()));
     if (nm < table.nm.front() || nm > table.nm.back())
       value.reject(fmt::format("{} is given from {} to {} nm, which does not hold {}", value.name(),
                                table.nm.front(), table.nm.back(), bands.name(band)));

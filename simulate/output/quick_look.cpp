@@ -15,8 +15,8 @@ std::array<std::size_t, 3> colour_bands(const Bands& bands) {
   for (std::size_t c = 0; c < 3; ++c) {
     double best = near_nm;
     bool found = false;
-    for (std::size_t b = 0; b < bands.wavelengths_nm.size(); ++b) {
-      const double off = std::abs(bands.wavelengths_nm[b] - colours_nm[c]);
+    for (std::size_t b = 0; b < bands.written(); ++b) {
+      const double off = std::abs(bands.written_nm(b) - colours_nm[c]);
       if (off <= best) {
         best = off;
         out[c] = b;
@@ -31,7 +31,7 @@ std::array<std::size_t, 3> colour_bands(const Bands& bands) {
 }  // namespace
 
 RgbImage quick_look(const Simulation& simulation, const SensorResult& result) {
-  const std::size_t bands = simulation.bands.count();
+  const std::size_t bands = simulation.bands.written();
   const std::vector<double>& radiance = result.radiance.front().value;
   const std::size_t pixels = result.samples.size();
   const auto chosen = colour_bands(simulation.bands);

@@ -18,17 +18,15 @@ class Rows {
   Rows(const Simulation& simulation, const Sensor& sensor) : simulation_(&simulation), sensor_(&sensor) {}
 
   // band < 0, order < 0, material < 0: the column does not apply.
-  void add(const char* quantity, std::size_t view, int band, const std::string& origin,
+  void add(const char* quantity, std::size_t view, int band, const Sun* sun, const std::string& origin,
            const std::string& component, int order, int material, double value, double error) {
-    const auto& light = simulation_->light;
-    const auto& nm = simulation_->bands.wavelengths_nm;
     std::string& out = text;
     out += quantity;
     field(csv_field(sensor_->name));
     field(band < 0 ? "" : std::to_string(band + 1));
-    field(csv_number(band < 0 || nm.empty() ? no_value : nm[static_cast<std::size_t>(band)]));
-    field(csv_number(light.sun ? light.sun->zenith_deg : no_value));
-    field(csv_number(light.sun ? light.sun->azimuth_deg : no_value));
+    field(csv_number(band < 0 ? no_value : simulation_->bands.written_nm(static_cast<std::size_t>(band))));
+    field(csv_number(sun != nullptr ? sun->zenith_deg : no_value));
+    field(csv_number(sun != nullptr ? sun->azimuth_deg : no_value));
     field(csv_number(sensor_->vza_deg(view)));
     field(csv_number(sensor_->vaa_deg(view)));
     field(origin);
@@ -51,34 +49,41 @@ class Rows {
 };
 
 void add_parts(const Simulation& simulation, const SensorResult& result, std::size_t view, Rows& rows) {
-  const std::size_t bands = simulation.bands.count();
+  const std::size_t bands = simulation.bands.written();
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
     const Part& part = result.parts[p];
     const bool is_total = part.component == Component::all && part.order == every_order;
     if (bands > split_bands && !is_total) continue;
-    const std::vector<double> scale = reflectance_scale(simulation.light, part.origin, bands);
+    const std::vector<double> scale = reflectance_scale(simulation, part.origin, part.sun);
     for (std::size_t band = 0; band < bands; ++band) {
       const std::size_t i = view * bands + band;
       const double value = result.radiance[p].value[i], error = result.radiance[p].standard_error[i];
       const auto add = [&](const char* quantity, double by) {
-        rows.add(quantity, view, static_cast<int>(band), name_of(part.origin), name_of(part.component),
-                 part.order, -1, value * by, error * by);
+        rows.add(quantity, view, static_cast<int>(band), sun_of(simulation.light, part), name_of(part.origin),
+                 name_of(part.component), part.order, -1, value * by, error * by);
       };
-      add(reflectance_name(simulation.light), scale[band]);
-      if (is_total) add("radiance", 1);
+      add(reflectance_quantity(simulation.light, *result.sensor).name, scale[band]);
+      if (is_total) add(light_quantity(*result.sensor).name, light_scale(*result.sensor));
     }
   }
 }
 
 void add_fractions(const Simulation& simulation, const SensorResult& result, std::size_t view, Rows& rows) {
-  const auto add = [&](const char* quantity, const Estimates& of, std::size_t index, int material) {
-    rows.add(quantity, view, -1, "", "", -1, material, of.value[index], of.standard_error[index]);
+  const auto add = [&](const char* quantity, const Sun* sun, const Estimates& of, std::size_t index,
+                       int material) {
+    rows.add(quantity, view, -1, sun, "", "", -1, material, of.value[index], of.standard_error[index]);
   };
-  add("gap", result.gap, view, -1);
-  const std::size_t materials = simulation.materials.size();
-  for (std::size_t m = 0; m < materials && simulation.light.sun; ++m) {
-    add("fraction_sunlit", result.sunlit, view * materials + m, static_cast<int>(m));
-    add("fraction_shaded", result.shaded, view * materials + m, static_cast<int>(m));
+  add("gap", sun_of(simulation.light), result.gap, view, -1);
+  const std::size_t materials = simulation.materials.size(), suns = simulation.light.suns.size();
+  for (std::size_t s = 0; s < suns; ++s) {
+    const Sun* sun = &simulation.light.suns[s];
+    add("bidirectional_gap", sun, result.sunlit_ground, view * suns + s, -1);
+    for (std::size_t m = 0; m < materials; ++m) {
+      const std::size_t at = (view * suns + s) * materials + m;
+      add("fraction_sunlit", sun, result.sunlit, at, static_cast<int>(m));
+      add("fraction_shaded", sun, result.shaded, at, static_cast<int>(m));
+      add("fraction_lit_behind", sun, result.lit_behind, at, static_cast<int>(m));
+    }
   }
 }
 

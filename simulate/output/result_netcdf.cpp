@@ -18,7 +18,7 @@ class SensorVariables {
         result_(result),
         file_(file),
         prefix_(std::move(prefix)),
-        bands_(simulation.bands.count()),
+        bands_(simulation.bands.written()),
         by_origin_(!result.sensor->is_image() || options.image_origins) {
     const Sensor& sensor = *result.sensor;
     if (sensor.is_image()) {
@@ -56,12 +56,12 @@ class SensorVariables {
     return to;
   }
   Origin main_origin() const {
-    return simulation_.light.sun && simulation_.light.sky ? Origin::direct : Origin::total;
+    return !simulation_.light.suns.empty() && simulation_.light.sky ? Origin::direct : Origin::total;
   }
 
   void write_angles() {
     std::vector<double> vza, vaa, sza, saa;
-    const auto& sun = simulation_.light.sun;
+    const Sun* sun = sun_of(simulation_.light);
     for (std::size_t view = 0; view < result_.sensor->views(); ++view) {
       vza.push_back(result_.sensor->vza_deg(view));
       vaa.push_back(result_.sensor->vaa_deg(view));
@@ -85,8 +85,8 @@ class SensorVariables {
   void fill(std::size_t part, bool reflectance, std::vector<double>& value, std::vector<double>& error,
             std::size_t offset, std::size_t stride) const {
     const std::vector<double> scale =
-        reflectance ? reflectance_scale(simulation_.light, result_.parts[part].origin, bands_)
-                    : std::vector<double>(bands_, 1.0);
+        reflectance ? reflectance_scale(simulation_, result_.parts[part].origin, result_.parts[part].sun)
+                    : std::vector<double>(bands_, light_scale(*result_.sensor));
     for (std::size_t view = 0; view < result_.samples.size(); ++view) {
       for (std::size_t band = 0; band < bands_; ++band) {
         const std::size_t from = view * bands_ + band, to = from * stride + offset;
@@ -121,15 +121,10 @@ class SensorVariables {
                    image ? Precision::three_digits : Precision::full);
   }
 
-  std::string quantity(bool reflectance) const {
-    return reflectance ? reflectance_name(simulation_.light) : "radiance";
+  Quantity quantity(bool reflectance) const {
+    return reflectance ? reflectance_quantity(simulation_.light, *result_.sensor)
+                       : light_quantity(*result_.sensor);
   }
-  std::string words_for(bool reflectance) const {
-    if (!reflectance) return "spectral radiance towards the sensor";
-    return simulation_.light.sky ? "hemispherical-directional reflectance factor"
-                                 : "bidirectional reflectance factor";
-  }
-  std::string units(bool reflectance) const { return reflectance ? "1" : "W m-2 sr-1 um-1"; }
 
   void write_parts(bool reflectance, const std::string& suffix, const std::string& axis,
                    const std::vector<std::size_t>& parts, const std::string& what) {
@@ -140,8 +135,8 @@ class SensorVariables {
     for (std::size_t i = 0; i < parts.size(); ++i) fill(parts[i], reflectance, value, error, i, stride);
     Words dimensions = with(views_, "band");
     if (!axis.empty()) dimensions.push_back(axis);
-    put(quantity(reflectance) + suffix, dimensions, value, error, words_for(reflectance) + what,
-        units(reflectance));
+    const Quantity what_it_is = quantity(reflectance);
+    put(what_it_is.name + suffix, dimensions, value, error, what_it_is.words + what, what_it_is.units);
   }
 
   void write_totals(bool reflectance) {
@@ -151,6 +146,13 @@ class SensorVariables {
       for (const std::size_t p : parts_with(result_, origin, Component::all, false)) by_origin.push_back(p);
     if (by_origin.size() > 1 && by_origin_)
       write_parts(reflectance, "_by_origin", "origin", by_origin, " by origin of the light");
+    std::vector<std::size_t> by_sun;
+    for (std::size_t p = 0; p < result_.parts.size(); ++p) {
+      const Part& part = result_.parts[p];
+      if (part.sun != every_sun && part.component == Component::all && part.order == every_order)
+        by_sun.push_back(p);
+    }
+    if (by_origin_) write_parts(reflectance, "_by_sun", "sun", by_sun, " of the light of each sun");
   }
   static Words components() { return {"uc_sgl", "co_sgl", "mlt"}; }
   std::vector<std::size_t> parts_of_components() const {
@@ -197,11 +199,17 @@ class SensorVariables {
                {{"units", "1"}, {"long_name", "standard error of " + what}});
     };
     put_fraction("gap", views_, result_.gap, "fraction of view that meets no canopy");
-    if (!simulation_.light.sun || simulation_.materials.empty()) return;
-    put_fraction("fraction_sunlit", with(views_, "material"), result_.sunlit,
+    if (simulation_.light.suns.empty()) return;
+    const Words by_sun = simulation_.light.suns.size() > 1 ? with(views_, "sun") : views_;
+    put_fraction("bidirectional_gap", by_sun, result_.sunlit_ground,
+                 "fraction of view that is sunlit ground");
+    if (simulation_.materials.empty()) return;
+    put_fraction("fraction_sunlit", with(by_sun, "material"), result_.sunlit,
                  "fraction of view that is sunlit, by material met first");
-    put_fraction("fraction_shaded", with(views_, "material"), result_.shaded,
+    put_fraction("fraction_shaded", with(by_sun, "material"), result_.shaded,
                  "fraction of view that is shaded, by material met first");
+    put_fraction("fraction_lit_behind", with(by_sun, "material"), result_.lit_behind,
+                 "fraction of view that is sunlit on the face that is not seen, by material met first");
   }
 
   const Simulation& simulation_;
@@ -239,6 +247,24 @@ void write_globals(NetcdfWriter& file, const Simulation& simulation, const Resul
   file.global("standard_error", "one standard deviation, from 32 independent scrambles");
 }
 
+void write_suns(NetcdfWriter& file, const Light& light) {
+  std::vector<std::string> names;
+  std::vector<double> zenith, azimuth;
+  for (const Sun& sun : light.suns) {
+    names.push_back(sun.name);
+    zenith.push_back(sun.zenith_deg);
+    azimuth.push_back(sun.azimuth_deg);
+  }
+  file.dimension("sun", names.size());
+  file.words("sun", "sun", names, {{"long_name", "sun"}});
+  file.variable(
+      "sun_zenith", {"sun"}, zenith,
+      {{"units", "degree"}, {"standard_name", "solar_zenith_angle"}, {"long_name", "sun zenith angle"}});
+  file.variable(
+      "sun_azimuth", {"sun"}, azimuth,
+      {{"units", "degree"}, {"standard_name", "solar_azimuth_angle"}, {"long_name", "sun azimuth angle"}});
+}
+
 }  // namespace
 
 std::string sensor_identifier(const Simulation& simulation, std::size_t sensor) {
@@ -258,25 +284,33 @@ void write_netcdf(const Simulation& simulation, const Result& result, const Prov
                   const std::string& path, const NetcdfOptions& options) {
   NetcdfWriter file(path, options.overwrite);
   write_globals(file, simulation, result, provenance);
-  const auto& nm = simulation.bands.wavelengths_nm;
-  file.dimension("band", simulation.bands.count());
-  file.variable("wavelength", {"band"}, nm.empty() ? std::vector<double>{no_value} : nm,
+  std::vector<double> nm;
+  std::vector<std::string> names;
+  for (std::size_t band = 0; band < simulation.bands.written(); ++band) {
+    nm.push_back(simulation.bands.written_nm(band));
+    names.push_back(simulation.bands.written_name(band));
+  }
+  file.dimension("band", nm.size());
+  if (!simulation.bands.responses.empty())
+    file.words("band", "band", names, {{"long_name", "band of the sensor"}});
+  file.variable("wavelength", {"band"}, nm,
                 {{"units", "nm"}, {"long_name", "wavelength"}, {"standard_name", "radiation_wavelength"}});
-  if (simulation.light.sun && simulation.light.sky) {
+  if (!simulation.light.suns.empty() && simulation.light.sky) {
     file.dimension("origin", 3);
     file.words("origin", "origin", {"total", "direct", "diffuse"},
                {{"long_name", "source that the light came from"}});
   }
-  if (simulation.light.sun) {
+  if (simulation.light.suns.size() > 1) write_suns(file, simulation.light);
+  if (!simulation.light.suns.empty()) {
     file.dimension("component", 3);
     file.words("component", "component", {"uc_sgl", "co_sgl", "mlt"},
                {{"long_name", "single scattering by the ground, by the canopy; multiple scattering"}});
   }
   if (!simulation.materials.empty()) {
-    std::vector<std::string> names;
-    for (const Material& material : simulation.materials) names.push_back(material.name);
-    file.dimension("material", names.size());
-    file.words("material", "material", names, {{"long_name", "material"}});
+    std::vector<std::string> materials;
+    for (const Material& material : simulation.materials) materials.push_back(material.name);
+    file.dimension("material", materials.size());
+    file.words("material", "material", materials, {{"long_name", "material"}});
   }
   for (std::size_t i = 0; i < result.sensors.size(); ++i) {
     const std::string prefix = simulation.sensors.size() == 1 ? "" : sensor_identifier(simulation, i) + "_";

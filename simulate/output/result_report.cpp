@@ -9,11 +9,11 @@ namespace bpms {
 namespace {
 
 Json wavelength(const Bands& bands, std::size_t band) {
-  return bands.wavelengths_nm.empty() ? Json(nullptr) : Json(bands.wavelengths_nm[band]);
+  return json_number(bands.written_nm(band));
 }
-Json sun_angle(const Light& light, bool zenith) {
-  if (!light.sun) return nullptr;
-  return zenith ? light.sun->zenith_deg : light.sun->azimuth_deg;
+Json angle_of(const Sun* sun, bool zenith) {
+  if (sun == nullptr) return nullptr;
+  return zenith ? sun->zenith_deg : sun->azimuth_deg;
 }
 
 struct Curve {
@@ -35,8 +35,8 @@ Curve curve_over_views(const SensorResult& result, const Estimates& of, std::siz
   return out;
 }
 
-Json series_of(const Simulation& simulation, const SensorResult& result, const std::string& quantity,
-               Json band, Json nm, const Part* part, Json material, const Curve& curve) {
+Json series_of(const Sun* sun, const SensorResult& result, const std::string& quantity, Json band, Json nm,
+               const Part* part, Json material, const Curve& curve) {
   return {{"sensor", result.sensor->name},
           {"quantity", quantity},
           {"band", std::move(band)},
@@ -45,8 +45,8 @@ Json series_of(const Simulation& simulation, const SensorResult& result, const s
           {"component", part ? Json(name_of(part->component)) : Json(nullptr)},
           {"order", part && part->order != every_order ? Json(part->order) : Json(nullptr)},
           {"material", std::move(material)},
-          {"sza_deg", sun_angle(simulation.light, true)},
-          {"saa_deg", sun_angle(simulation.light, false)},
+          {"sza_deg", angle_of(sun, true)},
+          {"saa_deg", angle_of(sun, false)},
           {"vza_deg", curve.vza},
           {"vaa_deg", curve.vaa},
           {"value", curve.value},
@@ -54,23 +54,26 @@ Json series_of(const Simulation& simulation, const SensorResult& result, const s
 }
 
 void add_series(const Simulation& simulation, const SensorResult& result, Json& out) {
-  const std::size_t bands = simulation.bands.count(), materials = simulation.materials.size();
+  const std::size_t bands = simulation.bands.written(), materials = simulation.materials.size();
   constexpr int orders_shown = 10;
   for (std::size_t p = 0; p < result.parts.size() && bands <= split_bands; ++p) {
     const Part& part = result.parts[p];
     if (part.order > orders_shown) continue;
-    const std::vector<double> scale = reflectance_scale(simulation.light, part.origin, bands);
+    const std::vector<double> scale = reflectance_scale(simulation, part.origin, part.sun);
     for (std::size_t band = 0; band < bands; ++band)
-      out.push_back(series_of(simulation, result, reflectance_name(simulation.light), band + 1,
+      out.push_back(series_of(sun_of(simulation.light, part), result,
+                              reflectance_quantity(simulation.light, *result.sensor).name, band + 1,
                               wavelength(simulation.bands, band), &part, nullptr,
                               curve_over_views(result, result.radiance[p], bands, band, scale[band])));
   }
-  out.push_back(series_of(simulation, result, "gap", nullptr, nullptr, nullptr, nullptr,
+  out.push_back(series_of(sun_of(simulation.light), result, "gap", nullptr, nullptr, nullptr, nullptr,
                           curve_over_views(result, result.gap, 1, 0, 1)));
-  for (std::size_t m = 0; m < materials && simulation.light.sun; ++m) {
+  const std::size_t suns = simulation.light.suns.size();
+  for (std::size_t i = 0; i < suns * materials; ++i) {
     const auto add = [&](const char* quantity, const Estimates& of) {
-      out.push_back(series_of(simulation, result, quantity, nullptr, nullptr, nullptr,
-                              simulation.materials[m].name, curve_over_views(result, of, materials, m, 1)));
+      out.push_back(series_of(&simulation.light.suns[i / materials], result, quantity, nullptr, nullptr,
+                              nullptr, simulation.materials[i % materials].name,
+                              curve_over_views(result, of, suns * materials, i, 1)));
     };
     add("fraction_sunlit", result.sunlit);
     add("fraction_shaded", result.shaded);
@@ -78,9 +81,9 @@ void add_series(const Simulation& simulation, const SensorResult& result, Json& 
 }
 
 void add_spectra(const Simulation& simulation, const SensorResult& result, Json& out) {
-  const std::size_t bands = simulation.bands.count();
+  const std::size_t bands = simulation.bands.written();
   if (bands <= split_bands) return;
-  const std::vector<double> scale = reflectance_scale(simulation.light, Origin::total, bands);
+  const std::vector<double> scale = reflectance_scale(simulation, Origin::total);
   for (std::size_t view = 0; view < result.samples.size(); ++view) {
     if (result.samples[view] == 0) continue;
     Json nm = Json::array(), value = Json::array(), error = Json::array();
@@ -90,10 +93,10 @@ void add_spectra(const Simulation& simulation, const SensorResult& result, Json&
       error.push_back(json_number(result.radiance[0].standard_error[view * bands + band] * scale[band]));
     }
     out.push_back({{"sensor", result.sensor->name},
-                   {"quantity", reflectance_name(simulation.light)},
+                   {"quantity", reflectance_quantity(simulation.light, *result.sensor).name},
                    {"vza_deg", json_number(result.sensor->vza_deg(view))},
                    {"vaa_deg", json_number(result.sensor->vaa_deg(view))},
-                   {"sza_deg", sun_angle(simulation.light, true)},
+                   {"sza_deg", angle_of(sun_of(simulation.light), true)},
                    {"wavelength_nm", nm},
                    {"value", value},
                    {"standard_error", error}});
@@ -101,11 +104,11 @@ void add_spectra(const Simulation& simulation, const SensorResult& result, Json&
 }
 
 Json sensor_summary(const Simulation& simulation, const SensorResult& result) {
-  const std::size_t bands = simulation.bands.count();
+  const std::size_t bands = simulation.bands.written();
   double worst = 0;
   std::uint64_t samples = 0;
   Json per_view = Json::array();
-  const std::vector<double> scale = reflectance_scale(simulation.light, Origin::total, bands);
+  const std::vector<double> scale = reflectance_scale(simulation, Origin::total);
   for (std::size_t view = 0; view < result.samples.size(); ++view) {
     samples += result.samples[view];
     if (!result.sensor->is_image()) per_view.push_back(result.samples[view]);

@@ -29,13 +29,13 @@ class BrfSensor : public Sensor {
 
   std::optional<Eigen::Vector3d> parallel(std::size_t view) const override { return list[view].to_sensor; }
 
-  Ray start(std::size_t view, double u, double v, const Extent& extent) const override {
+  Ray start(std::size_t view, const SensorNumbers& random, const Extent& extent) const override {
     const Eigen::Vector3d& up = list[view].to_sensor;
     const double height = reference == Reference::top      ? extent.top_m
                           : reference == Reference::ground ? extent.bottom_m
                                                            : reference_m;
     const Eigen::Vector2d at =
-        extent.low_m + (extent.high_m - extent.low_m).cwiseProduct(Eigen::Vector2d(u, v));
+        extent.low_m + (extent.high_m - extent.low_m).cwiseProduct(Eigen::Vector2d(random.u, random.v));
     const double margin =
         1e-4 * (1.0 + std::abs(extent.top_m));  // the highest point itself is seen from outside
     const double rise = std::max(0.0, extent.top_m - height) + margin;
@@ -57,7 +57,8 @@ double within_sight(const TomlValue& value) {
 
 }  // namespace
 
-std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const Domain& domain, const Light& light) {
+std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const SensorContext& context) {
+  const Domain& domain = context.scene.domain;
   auto out = std::make_unique<BrfSensor>();
   const auto add = [&](double vza_deg, double vaa_deg) {
     out->list.push_back(
@@ -71,11 +72,11 @@ std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const Domain& do
     table.reject_choice("expected one of plane = \"principal\" | \"cross\" and views = [[vza, vaa], ...]");
   if (plane) {
     const std::string name = plane.one_of({"principal", "cross"});
-    if (!light.sun)
+    if (context.light.suns.empty())
       plane.reject("the principal and the cross plane need a sun: give views = [[vza, vaa], ...]");
     const double turn = name == "principal" ? 180.0 : 90.0;
     for (const double vza : read_number_list(table.require("vza_deg"), within_sight))
-      add(vza, light.sun->azimuth_deg + turn);
+      add(vza, context.light.suns.front().azimuth_deg + turn);
   } else {
     if (zeniths) zeniths.reject("views already say their zeniths: expected vza_deg with plane only");
     for (std::size_t i = 0; i < views.size(); ++i) {

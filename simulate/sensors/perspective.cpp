@@ -25,13 +25,13 @@ class PerspectiveSensor : public Sensor {
   int width() const override { return columns; }
   int height() const override { return rows; }
 
-  Ray start(std::size_t view, double u, double v, const Extent&) const override {
+  Ray start(std::size_t view, const SensorNumbers& random, const Extent&) const override {
     const auto column = static_cast<double>(view % static_cast<std::size_t>(columns));
     const std::size_t row_number = view / static_cast<std::size_t>(columns);
     const auto row = static_cast<double>(row_number);
     const double scale = 2.0 * semi_height / rows;
-    const double x = (column + u - 0.5 * columns) * scale;
-    const double y = (row + v - 0.5 * rows) * scale;
+    const double x = (column + random.u - 0.5 * columns) * scale;
+    const double y = (row + random.v - 0.5 * rows) * scale;
     Ray out;
     out.origin = location.cast<float>();
     out.direction = (look + x * right + y * down).normalized().cast<float>();
@@ -46,7 +46,7 @@ Eigen::Vector3d vector_of(const TomlValue& value) {
 
 }  // namespace
 
-std::unique_ptr<Sensor> read_perspective_sensor(const TomlValue& table, const Domain&, const Light&) {
+std::unique_ptr<Sensor> read_perspective_sensor(const TomlValue& table, const SensorContext&) {
   auto out = std::make_unique<PerspectiveSensor>();
   constexpr double shortest = 1e-9;
   constexpr int largest = 20000;

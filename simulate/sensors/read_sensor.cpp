@@ -4,14 +4,13 @@
 
 namespace bpms {
 namespace {
-using SensorReader = std::unique_ptr<Sensor> (*)(const TomlValue&, const Domain&, const Light&);
 const std::map<std::string, SensorReader> sensor_kinds{
     {"brf", read_brf_sensor},
     {"perspective", read_perspective_sensor},
 };
 }  // namespace
 
-std::unique_ptr<Sensor> read_sensor(const TomlValue& table, const Domain& domain, const Light& light) {
+std::unique_ptr<Sensor> read_sensor(const TomlValue& table, const SensorContext& context) {
   const TomlValue name = table.require("name");
   if (name.string().empty()) name.reject("expected a name");
   std::vector<std::string> known;
@@ -21,7 +20,7 @@ std::unique_ptr<Sensor> read_sensor(const TomlValue& table, const Domain& domain
     if (type.is_string() && type.string() == later)
       type.reject(
           fmt::format("sensors of type \"{}\" are not built yet: expected brf or perspective", later));
-  auto out = sensor_kinds.at(type.one_of(known))(table, domain, light);
+  auto out = sensor_kinds.at(type.one_of(known))(table, context);
   out->name = name.string();
   out->type = type.string();
   return out;

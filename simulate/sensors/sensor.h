@@ -1,11 +1,13 @@
-// Sensors as sources of rays. A view is a direction of a `brf` sensor or a pixel of an image; each has its
-// own estimate. `start` maps the unit square to the view's rays: origin and direction of travel (away from
-// the sensor). To add a kind: its own file with a reader and a line in the table of read_sensor.cpp.
+// Sensors as sources of rays. A view is a direction of a `brf` sensor, a pixel of an image, a ray of a list;
+// each has its own estimate, the mean of what its rays see. `start` maps random numbers to the view's rays:
+// origin and direction of travel (away from the sensor). To add a kind: its own file with a reader and a line
+// in the table of read_sensor.cpp.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/intersect/intersector.h"
 #include "simulate/light/light.h"
@@ -19,6 +21,15 @@ struct Extent {
 };
 Extent extent_of(const Intersector& intersector);
 
+// Uniform in (0, 1): (u, v) over the pixel or the cell, (s, t) over the aperture or the hemisphere.
+struct SensorNumbers {
+  double u, v, s = 0.5, t = 0.5;
+};
+
+// A view's value is the mean radiance of its rays; that of a receiver of irradiance is pi times it, with rays
+// distributed as the cosine to its normal.
+enum class Measures { radiance, irradiance };
+
 class Sensor {
  public:
   virtual ~Sensor() = default;
@@ -26,7 +37,12 @@ class Sensor {
   std::string type;
 
   virtual std::size_t views() const = 0;
-  virtual Ray start(std::size_t view, double u, double v, const Extent& extent) const = 0;
+  virtual Ray start(std::size_t view, const SensorNumbers& random, const Extent& extent) const = 0;
+  virtual bool uses_aperture() const { return false; }  // (s, t) too
+  virtual Measures measures() const { return Measures::radiance; }
+  // Of a receiver of irradiance: the unit normal of the face that receives; the sun shines on it directly
+  // too.
+  virtual std::optional<Eigen::Vector3d> faces(std::size_t) const { return std::nullopt; }
   // Towards the sensor, where all rays of the view are parallel and start above the scene.
   virtual std::optional<Eigen::Vector3d> parallel(std::size_t) const { return std::nullopt; }
   // Towards the sensor, in degrees as the file writes them; NaN for a pixel.
@@ -38,9 +54,16 @@ class Sensor {
   bool is_image() const { return width() > 0; }
 };
 
-std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const Domain& domain, const Light& light);
-std::unique_ptr<Sensor> read_perspective_sensor(const TomlValue& table, const Domain& domain,
-                                                const Light& light);
-std::unique_ptr<Sensor> read_sensor(const TomlValue& table, const Domain& domain, const Light& light);
+// What a reader may look at; files that it reads are added to `inputs`, remarks to `notes`.
+struct SensorContext {
+  const Scene& scene;
+  const Light& light;
+  std::vector<std::string>& inputs;
+  std::vector<std::string>& notes;
+};
+using SensorReader = std::unique_ptr<Sensor> (*)(const TomlValue& table, const SensorContext& context);
+std::unique_ptr<Sensor> read_brf_sensor(const TomlValue& table, const SensorContext& context);
+std::unique_ptr<Sensor> read_perspective_sensor(const TomlValue& table, const SensorContext& context);
+std::unique_ptr<Sensor> read_sensor(const TomlValue& table, const SensorContext& context);
 
 }  // namespace bpms

@@ -4,53 +4,80 @@
 #include <cmath>
 #include <limits>
 
-#include "core/units.h"
-
 namespace bpms {
 
 std::vector<Part> parts_of(const Light& light, int orders) {
-  const bool both = light.sun && light.sky;
-  std::vector<Part> out{{Origin::total, Component::all, every_order}};
-  std::vector<Origin> origins{Origin::total};
+  // Whose light is told apart: all of it; of several kinds of sources each; of several suns each.
+  std::vector<Part> whose{{}};
+  const bool both = !light.suns.empty() && light.sky;
   if (both) {
-    origins = {Origin::total, Origin::direct, Origin::diffuse};
-    out.push_back({Origin::direct, Component::all, every_order});
-    out.push_back({Origin::diffuse, Component::all, every_order});
+    whose.push_back({Origin::direct});
+    whose.push_back({Origin::diffuse});
   }
+  if (light.suns.size() > 1)
+    for (std::size_t s = 0; s < light.suns.size(); ++s)
+      whose.push_back({Origin::direct, Component::all, every_order, static_cast<int>(s)});
+  std::vector<Part> out = whose;
   if (orders == 0) return out;
-  if (light.sun)
+  for (const Part& part : whose) {
+    const bool of_suns = part.origin == Origin::direct || (part.origin == Origin::total && !light.sky);
+    if (light.suns.empty() || !of_suns) continue;
     for (const Component component : {Component::uc_sgl, Component::co_sgl, Component::mlt})
-      out.push_back({both ? Origin::direct : Origin::total, component, every_order});
+      out.push_back({part.origin, component, every_order, part.sun});
+  }
   for (int order = 1; order <= orders; ++order)
-    for (const Origin origin : origins) out.push_back({origin, Component::all, order});
+    for (const Part& part : whose) out.push_back({part.origin, Component::all, order, part.sun});
   return out;
 }
 
-void part_of_batch(const Part& part, const BatchMeans& means, const Light& light, std::span<double> out) {
+Sources::Sources(const Simulation& of) : simulation(&of) {
+  for (const Sun& sun : of.light.suns) traced.push_back(sun.irradiance);
+  traced.push_back(of.light.sky ? of.light.sky->radiance : std::vector<double>(of.bands.count(), 0.0));
+  for (const auto& light : traced) written.push_back(of.bands.integrate(light));
+}
+
+void part_of_batch(const Part& part, const BatchMeans& means, const Sources& sources, std::span<double> out) {
+  const Rows& rows = means.rows;
+  const Bands& bands = sources.simulation->bands;
   std::fill(out.begin(), out.end(), 0.0);
-  const auto add = [&](std::size_t row, double sign) {
+  const auto add = [&](std::size_t source, std::size_t row, double sign) {
     const double* from = means.row(row);
-    const bool from_sky = row == BatchMeans::sky_seen || (row >= 2 && row % 2 == 1);
+    if (means.of_written_bands || bands.responses.empty()) {
+      const std::vector<double>& light = sources.written[source];
+      for (std::size_t band = 0; band < out.size(); ++band) out[band] += sign * light[band] * from[band];
+      return;
+    }
+    const std::vector<double>& light = sources.traced[source];
     for (std::size_t band = 0; band < out.size(); ++band) {
-      const double source = from_sky ? (light.sky ? light.sky->radiance[band] : 0.0)
-                                     : (light.sun ? light.sun->irradiance[band] : 0.0);
-      out[band] += sign * source * from[band];
+      double sum = 0;
+      for (const auto& weight : bands.responses[band].weights)
+        sum += weight.second * light[weight.first] * from[weight.first];
+      out[band] += sign * sum;
     }
   };
+  const auto each_sun = [&](auto visit) {
+    if (part.origin == Origin::diffuse) return;
+    for (std::size_t s = 0; s < rows.suns; ++s)
+      if (part.sun == every_sun || static_cast<std::size_t>(part.sun) == s) visit(s);
+  };
   const auto add_order = [&](int order) {
-    if (part.origin != Origin::diffuse && light.sun) add(BatchMeans::sun(order), 1);
-    if (part.origin != Origin::direct && light.sky) add(BatchMeans::sky(order), 1);
+    each_sun([&](std::size_t s) { add(s, rows.sun(order, s), 1); });
+    if (part.origin != Origin::direct && sources.simulation->light.sky) add(rows.suns, rows.sky(order), 1);
   };
   switch (part.component) {
     case Component::uc_sgl:
-      add(BatchMeans::ground_single, 1);
+      each_sun([&](std::size_t s) { add(s, rows.ground_single(s), 1); });
       return;
     case Component::co_sgl:
-      add(BatchMeans::sun(1), 1);
-      add(BatchMeans::ground_single, -1);
+      each_sun([&](std::size_t s) {
+        add(s, rows.sun(1, s), 1);
+        add(s, rows.ground_single(s), -1);
+      });
       return;
     case Component::mlt:
-      for (int order = 2; order <= means.orders; ++order) add(BatchMeans::sun(order), 1);
+      each_sun([&](std::size_t s) {
+        for (int order = 2; order <= rows.orders; ++order) add(s, rows.sun(order, s), 1);
+      });
       return;
     case Component::all:
       break;
@@ -59,16 +86,16 @@ void part_of_batch(const Part& part, const BatchMeans& means, const Light& light
     add_order(part.order);
     return;
   }
-  for (int order = 1; order <= means.orders; ++order) add_order(order);
-  if (part.origin != Origin::direct && light.sky) add(BatchMeans::sky_seen, 1);
+  for (int order = 0; order <= rows.orders; ++order) add_order(order);
 }
 
-double reached(const std::vector<BatchMeans>& means, const Light& light, const Sampling& sampling) {
-  const std::size_t bands = means.front().bands;
+double reached(const std::vector<BatchMeans>& means, const Sources& sources) {
+  const Sampling& sampling = sources.simulation->sampling;
+  const std::size_t bands = sources.simulation->bands.written();
   Moments moments(bands);
   std::vector<double> value(bands);
   for (std::size_t batch = 0; batch < means.size(); ++batch) {
-    part_of_batch({}, means[batch], light, value);
+    part_of_batch({}, means[batch], sources, value);
     for (std::size_t band = 0; band < bands; ++band) moments.add(band, value[band], batch);
   }
   double worst = std::numeric_limits<double>::infinity();
@@ -84,7 +111,6 @@ double reached(const std::vector<BatchMeans>& means, const Light& light, const S
 namespace {
 
 void write_fractions(const std::vector<const ViewCounts*>& counts, std::size_t view, SensorResult& result) {
-  const std::size_t materials = counts.front()->sunlit.size();
   const auto write = [&](Estimates& to, std::size_t index, auto count_of) {
     Moments moments(1);
     for (std::size_t batch = 0; batch < counts.size(); ++batch)
@@ -94,23 +120,28 @@ void write_fractions(const std::vector<const ViewCounts*>& counts, std::size_t v
     to.value[index] = moments.mean(0);
     to.standard_error[index] = moments.standard_error(0, counts.size());
   };
+  const auto write_all = [&](Estimates& to, std::vector<std::uint64_t> ViewCounts::*which) {
+    const std::size_t size = (counts.front()->*which).size();
+    for (std::size_t i = 0; i < size; ++i)
+      write(to, view * size + i, [which, i](const ViewCounts& c) { return (c.*which)[i]; });
+  };
   write(result.gap, view, [](const ViewCounts& c) { return c.gap; });
-  for (std::size_t m = 0; m < materials; ++m) {
-    write(result.sunlit, view * materials + m, [m](const ViewCounts& c) { return c.sunlit[m]; });
-    write(result.shaded, view * materials + m, [m](const ViewCounts& c) { return c.shaded[m]; });
-  }
+  write_all(result.sunlit, &ViewCounts::sunlit);
+  write_all(result.shaded, &ViewCounts::shaded);
+  write_all(result.lit_behind, &ViewCounts::lit_behind);
+  write_all(result.sunlit_ground, &ViewCounts::sunlit_ground);
 }
 
 }  // namespace
 
 void write_estimates(const std::vector<BatchMeans>& means, const std::vector<const ViewCounts*>& counts,
-                     const Light& light, std::size_t view, SensorResult& result) {
-  const std::size_t bands = means.front().bands;
+                     const Sources& sources, std::size_t view, SensorResult& result) {
+  const std::size_t bands = sources.simulation->bands.written();
   std::vector<double> value(bands);
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
     Moments moments(bands);
     for (std::size_t batch = 0; batch < means.size(); ++batch) {
-      part_of_batch(result.parts[p], means[batch], light, value);
+      part_of_batch(result.parts[p], means[batch], sources, value);
       for (std::size_t band = 0; band < bands; ++band) moments.add(band, value[band], batch);
     }
     for (std::size_t band = 0; band < bands; ++band) {
@@ -126,7 +157,8 @@ void write_estimates(const std::vector<BatchMeans>& means, const std::vector<con
 void write_truncation(const Sampling& sampling, std::size_t bands, SensorResult& result) {
   const auto part = [&](int order) -> const Estimates* {
     for (std::size_t p = 0; p < result.parts.size(); ++p)
-      if (result.parts[p].order == order && result.parts[p].origin == Origin::total)
+      if (result.parts[p].order == order && result.parts[p].origin == Origin::total &&
+          result.parts[p].sun == every_sun)
         return &result.radiance[p];
     return nullptr;
   };

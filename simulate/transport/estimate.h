@@ -11,18 +11,26 @@ namespace bpms {
 inline constexpr std::size_t batches = 32;  // independent scrambles a view
 
 // All parts that a simulation with this light gives, for `orders` orders kept (0: no split by order or
-// component).
+// component). With several suns each has parts of its own.
 std::vector<Part> parts_of(const Light& light, int orders);
 
-// One part of one batch, per band, into `out`.
-void part_of_batch(const Part& part, const BatchMeans& means, const Light& light, std::span<double> out);
+// The light of each source in the written bands: suns in their order, then the sky (horizontal irradiance /
+// pi).
+struct Sources {
+  const Simulation* simulation;
+  explicit Sources(const Simulation& of);
+  std::vector<std::vector<double>> traced, written;
+};
+
+// One part of one batch, per written band, into `out`.
+void part_of_batch(const Part& part, const BatchMeans& means, const Sources& sources, std::span<double> out);
 
 // Smallest over bands of target / standard error of the total, from one BatchMeans a batch; >= 1: reached.
-double reached(const std::vector<BatchMeans>& means, const Light& light, const Sampling& sampling);
+double reached(const std::vector<BatchMeans>& means, const Sources& sources);
 
 // Writes a view's estimates into the result; `means` and `counts` hold one entry a batch.
 void write_estimates(const std::vector<BatchMeans>& means, const std::vector<const ViewCounts*>& counts,
-                     const Light& light, std::size_t view, SensorResult& result);
+                     const Sources& sources, std::size_t view, SensorResult& result);
 
 // What the orders above max_order would add, from the decay of the last two (a geometric series); NaN where
 // unknown.

@@ -4,27 +4,30 @@
 
 namespace bpms {
 
-InteractionTally::InteractionTally(const Optics& optics, int orders)
+InteractionTally::InteractionTally(const Optics& optics, const Rows& rows)
     : optics_(&optics),
       factors_(static_cast<std::uint32_t>(optics.spectra.size())),
-      orders_(orders),
+      rows_(rows),
       nodes_(1),
+      sums_(2 * rows.suns + 1),
       children_(factors_, 0) {
   by_exponents_[std::vector<std::uint16_t>(factors_, 0)] = 0;
 }
 
+std::vector<std::uint16_t> InteractionTally::exponents(std::uint32_t node) const {
+  std::vector<std::uint16_t> out(factors_, 0);
+  for (std::uint32_t at = node; at != 0; at = nodes_[at].parent) ++out[nodes_[at].factor];
+  return out;
+}
+
 std::uint32_t InteractionTally::make_child(std::uint32_t node, Factor factor) {
-  std::vector<std::uint16_t> exponents(factors_, 0);
-  ++exponents[factor];
-  for (std::uint32_t at = node; at != 0; at = nodes_[at].parent) ++exponents[nodes_[at].factor];
+  std::vector<std::uint16_t> of_child = exponents(node);
+  ++of_child[factor];
   const auto next = static_cast<std::uint32_t>(nodes_.size());
-  const auto [place, is_new] = by_exponents_.try_emplace(std::move(exponents), next);
+  const auto [place, is_new] = by_exponents_.try_emplace(std::move(of_child), next);
   if (is_new) {
-    Node made;
-    made.parent = node;
-    made.factor = factor;
-    made.order = nodes_[node].order + 1;
-    nodes_.push_back(made);
+    nodes_.push_back({node, factor, nodes_[node].order + 1});
+    sums_.resize(sums_.size() + sums_per_node());
     children_.resize(children_.size() + factors_, 0);
   }
   children_[node * factors_ + factor] = place->second;
@@ -37,15 +40,12 @@ void InteractionTally::merge(const InteractionTally& other) {
   for (std::size_t n = 0; n < other.nodes_.size(); ++n) {
     const Node& node = other.nodes_[n];
     if (n > 0) here[n] = child(here[node.parent], node.factor);
-    Node& to = nodes_[here[n]];
-    to.sun += node.sun, to.sky += node.sky, to.ground_single += node.ground_single;
+    for (std::size_t k = 0; k < sums_per_node(); ++k) sum(here[n], k) += other.sums_[n * sums_per_node() + k];
   }
 }
 
 void InteractionTally::means(BatchMeans& out) const {
-  out.bands = optics_->bands;
-  out.orders = orders_;
-  out.mean.assign(out.rows() * out.bands, 0.0);
+  out.reset(rows_, optics_->bands);
   const double share = 1.0 / static_cast<double>(counts.paths);
   // A block of bands at a time, so that the values of all monomials stay in cache.
   constexpr std::size_t block = 16;
@@ -61,15 +61,18 @@ void InteractionTally::means(BatchMeans& out) const {
         const double* spectrum = optics_->spectra[node.factor].data() + first;
         for (std::size_t b = 0; b < width; ++b) value[b] = parent[b] * spectrum[b];
       }
-      const int order = std::min(static_cast<int>(node.order), orders_);
-      const auto add = [&](std::size_t row, double sum) {
+      const int order = rows_.kept(static_cast<int>(node.order));
+      const auto add = [&](std::size_t row, std::size_t which) {
+        const double sum = sums_[n * sums_per_node() + which] * share;
         if (sum == 0) return;
         double* to = out.row(row) + first;
-        for (std::size_t b = 0; b < width; ++b) to[b] += sum * share * value[b];
+        for (std::size_t b = 0; b < width; ++b) to[b] += sum * value[b];
       };
-      add(order == 0 ? BatchMeans::sky_seen : BatchMeans::sky(order), node.sky);
-      if (order > 0) add(BatchMeans::sun(order), node.sun);
-      add(BatchMeans::ground_single, node.ground_single);
+      for (std::size_t s = 0; s < rows_.suns; ++s) {
+        add(rows_.sun(order, s), s);
+        add(rows_.ground_single(s), rows_.suns + 1 + s);
+      }
+      add(rows_.sky(order), rows_.suns);
     }
   }
 }

@@ -1,7 +1,7 @@
 // Materials and light as flat tables for the hot loop. A path carries `lanes` bands at once: all of them when
-// there are at most that many, else a few guides that steer roulette, while the interactions are counted
-// (interactions.h). A factor is what one interaction multiplies a path's weight by: reflectance (front, back)
-// or transmittance of a material, per band.
+// there are at most that many, else a few guides that steer roulette. A factor is a spectrum that one
+// interaction multiplies a path's weight by: a reflectance (front, back) or transmittance of a diffuse
+// surface, the spectrum of a separable lobe.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -27,7 +27,9 @@ struct alignas(32) Lanes {
   }
 };
 
-using Factor = std::uint32_t;  // 3 * material + {0 front, 1 back reflectance, 2 transmittance}
+// 3 * material + {0 front, 1 back reflectance, 2 transmittance}; then the lobes' spectra.
+using Factor = std::uint32_t;
+inline constexpr Factor no_factor = 0xffffffffu;
 inline Factor reflectance_factor(std::uint32_t material, bool front) {
   return 3 * material + (front ? 0 : 1);
 }
@@ -35,14 +37,49 @@ inline Factor transmittance_factor(std::uint32_t material) {
   return 3 * material + 2;
 }
 
+// What one interaction multiplies a path's weight by: scale * the factor's spectrum * `values`, each where
+// there is one. `values`: a place for each traced band, at least `lanes` of them.
+struct Scatter {
+  Factor factor = no_factor;
+  float scale = 1;
+  const float* values = nullptr;
+};
+
+struct LobeOptics {
+  const Lobe* lobe = nullptr;
+  Factor factor = no_factor;  // of a separable lobe
+  std::array<bool, 2> on_face{};
+};
+
+// The ways on from a surface, seen from a face: chances that add up to 1.
+struct SurfaceOptics {
+  bool opaque = true;
+  bool diffuse = true;                 // no lobes: reflects with chance reflect_share, else transmits
+  std::array<float, 2> reflect_share;  // by face; of the diffuse part
+  std::array<float, 2> diffuse_share{1, 1};
+  std::vector<LobeOptics> lobes;
+  std::vector<std::array<float, 2>> lobe_share;  // by lobe and face
+  bool lets_through = false;  // a shadow ray, weakened: has a straight lobe, or shadows are attenuated
+};
+
+// How the bands travel with a path.
+enum class Carriage {
+  carried,   // all of them, one a lane
+  counted,   // interactions are counted, spectra come in at the end
+  spectrum,  // a weight for each band, in a row of its own
+  sampled    // a lane for each written band, at a wavelength that the path draws
+};
+
 struct Optics {
-  std::vector<Lanes> factors;  // by Factor, of the lanes' bands
-  std::vector<std::array<float, 2>>
-      reflect_share;                         // by material and face: chance that a path goes on by reflection
-  std::vector<char> opaque;                  // by material
-  std::vector<std::vector<double>> spectra;  // by Factor, of all bands
-  std::size_t bands = 1;
-  bool counts_interactions() const { return bands > lanes; }
+  std::vector<Lanes> factors;                // by Factor, of the lanes' bands
+  std::vector<std::vector<double>> spectra;  // by Factor, of all traced bands
+  std::vector<std::vector<float>> single;    // the same in single precision, for spectrum and sampled
+  std::vector<SurfaceOptics> surfaces;       // by material
+  std::vector<std::size_t> lane_bands;       // which traced band a lane stands for
+  std::size_t bands = 1;                     // traced
+  Carriage carriage = Carriage::carried;
+  bool lets_through = false;  // some surface does
+  bool needs_uv = false;      // some material has a map or a bump
 };
 Optics make_optics(const Simulation& simulation);
 

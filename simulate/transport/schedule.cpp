@@ -9,8 +9,11 @@
 #include "core/interrupt.h"
 #include "core/parallel.h"
 #include "simulate/transport/estimate.h"
+#include "simulate/transport/interaction_histogram.h"
 #include "simulate/transport/interactions.h"
 #include "simulate/transport/lane_tally.h"
+#include "simulate/transport/sampled_tally.h"
+#include "simulate/transport/spectrum_tally.h"
 #include "simulate/transport/wave.h"
 
 namespace bpms {
@@ -28,34 +31,43 @@ std::uint64_t round_up(double paths) {
 }
 
 // Paths a batch that are traced together: enough to make neighbours, pieces enough for the threads.
-std::uint64_t piece_size(std::uint64_t paths) {
-  return std::clamp<std::uint64_t>(paths / 2, 128, 8192);
+template <class Tally>
+std::uint64_t piece_size(std::uint64_t paths, const Optics& optics) {
+  return std::min<std::uint64_t>(std::clamp<std::uint64_t>(paths / 2, 128, 8192),
+                                 Tally::largest_piece(optics));
 }
+
+// What a batch starts from, and the light that its sums are multiplied by.
+template <class Tally>
+struct Sums {
+  Tally empty;
+  Sources sources;
+};
 
 template <class Tally>
 class ViewState {
  public:
-  ViewState(const Stage& stage, int orders, std::size_t index) : stage_(&stage), view(index) {
-    empty_.assign(batches, Tally(stage.optics, orders));
+  ViewState(const Stage& stage, const Sources& sources, const Tally& empty, std::size_t index)
+      : stage_(&stage), sources_(&sources), view(index) {
+    empty_.assign(batches, empty);
     tallies = empty_;
   }
 
   // A round of paths done ... goal is traced in pieces, in any order, and merged in theirs.
-  std::size_t pieces() const {
-    return goal == done ? 0 : (goal - done + piece_size(goal - done) - 1) / piece_size(goal - done);
-  }
+  std::size_t pieces() const { return goal == done ? 0 : (goal - done + piece() - 1) / piece(); }
+  std::uint64_t piece() const { return piece_size<Tally>(goal - done, stage_->optics); }
   void start_round() { pieces_.assign(pieces(), {}); }
-  void trace_piece(const Run& run, const Sensor& sensor, std::size_t piece) {
+  void trace_piece(const Run& run, const Sensor& sensor, std::size_t number) {
     if (interrupted()) return;
-    pieces_[piece] = empty_;
-    const std::uint64_t size = piece_size(goal - done), first = done + piece * size;
+    pieces_[number] = empty_;
+    const std::uint64_t size = piece(), first = done + number * size;
     Wave<Tally> wave(*stage_, view_rays.get());
-    wave.add(sensor, view, key(run), first, std::min(goal, first + size), pieces_[piece]);
+    wave.add(sensor, view, key(run), first, std::min(goal, first + size), pieces_[number]);
     wave.run();
   }
   void merge_round() {
-    for (const auto& piece : pieces_)
-      for (std::size_t batch = 0; batch < piece.size(); ++batch) tallies[batch].merge(piece[batch]);
+    for (const auto& part : pieces_)
+      for (std::size_t batch = 0; batch < part.size(); ++batch) tallies[batch].merge(part[batch]);
     pieces_.clear();
   }
   ViewKey key(const Run& run) const { return {run.seed, run.sensor_index, view}; }
@@ -73,8 +85,7 @@ class ViewState {
   void plan(double affordable, std::atomic<bool>& out_of_time, std::atomic<bool>& out_of_samples) {
     const Simulation& simulation = *stage_->simulation;
     done = goal;
-    const double ratio =
-        simulation.sampling.target_se > 0 ? reached(means(), simulation.light, simulation.sampling) : 0;
+    const double ratio = simulation.sampling.target_se > 0 ? reached(means(), *sources_) : 0;
     goal = next_size(simulation.sampling, done, ratio);
     if (goal == done && simulation.sampling.target_se > 0 && ratio < 1) out_of_samples = true;
     if (static_cast<double>(goal - done) <= affordable) return;
@@ -96,11 +107,14 @@ class ViewState {
   void finish(SensorResult& result) const {
     std::vector<const ViewCounts*> counts;
     for (const Tally& tally : tallies) counts.push_back(&tally.counts);
-    write_estimates(means(), counts, stage_->simulation->light, view, result);
+    write_estimates(means(), counts, *sources_, view, result);
+    if constexpr (std::is_same_v<Tally, InteractionTally>)
+      if (!result.histograms.empty()) result.histograms[view] = interaction_histogram(tallies);
   }
 
  private:
   const Stage* stage_;
+  const Sources* sources_;
   bool asked_for_rays_ = false;
   std::vector<Tally> empty_;
   std::vector<std::vector<Tally>>
@@ -149,12 +163,12 @@ void collect(const ViewState<Tally>& state, SensorResult& result, std::atomic<st
 
 // Directions: all batches of a group of views side by side.
 template <class Tally>
-void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t last, int orders,
+void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t last, const Sums<Tally>& sums,
                SensorResult& result) {
   const Sampling& sampling = run.stage->simulation->sampling;
   std::vector<ViewState<Tally>> views;
   for (std::size_t view = first; view < last; ++view) {
-    views.emplace_back(*run.stage, orders, view);
+    views.emplace_back(*run.stage, sums.sources, sums.empty, view);
     views.back().goal = next_size(sampling, 0, 0);
   }
   std::atomic<bool> out_of_time{false}, out_of_samples{false};
@@ -173,7 +187,7 @@ void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t la
     parallel_for(work.size(), [&](std::size_t i) {
       const auto& [state, piece] = work[i];
       state->trace_piece(run, sensor, piece);
-      run.progress->add(std::min(state->goal - state->done, piece_size(state->goal - state->done)) * batches);
+      run.progress->add(std::min(state->goal - state->done, state->piece()) * batches);
     });
     parallel_for(active.size(), [&](std::size_t i) { active[i]->merge_round(); });
     if (interrupted()) break;
@@ -191,8 +205,9 @@ void run_group(Run& run, const Sensor& sensor, std::size_t first, std::size_t la
 
 // Images: a few pixels at a time, from start to finish.
 template <class Tally>
-void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
-  constexpr std::size_t together = 16, largest_wave = 1 << 18;
+void run_pixels(Run& run, const Sensor& sensor, const Sums<Tally>& sums, SensorResult& result) {
+  constexpr std::size_t together = 16;
+  const std::size_t largest_wave = std::min<std::size_t>(1 << 18, Tally::largest_piece(run.stage->optics));
   const Sampling& sampling = run.stage->simulation->sampling;
   std::atomic<bool> out_of_time{false}, out_of_samples{false};
   std::atomic<std::uint64_t> rays{0}, lost{0};
@@ -208,7 +223,7 @@ void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
     std::vector<ViewState<Tally>> pixels;
     std::vector<ViewState<Tally>*> active;
     for (std::size_t view = tile * together; view < std::min(sensor.views(), (tile + 1) * together); ++view) {
-      pixels.emplace_back(*run.stage, 1, view);
+      pixels.emplace_back(*run.stage, sums.sources, sums.empty, view);
       pixels.back().goal = next_size(sampling, 0, 0);
     }
     for (auto& pixel : pixels) active.push_back(&pixel);
@@ -216,8 +231,9 @@ void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
     while (!active.empty() && !interrupted()) {
       pace.start_round(active);
       for (ViewState<Tally>* pixel : active) {
-        for (std::uint64_t from = pixel->done; from < pixel->goal; from += piece_size(pixel->goal)) {
-          const std::uint64_t to = std::min(pixel->goal, from + piece_size(pixel->goal));
+        const std::uint64_t piece = piece_size<Tally>(pixel->goal, run.stage->optics);
+        for (std::uint64_t from = pixel->done; from < pixel->goal; from += piece) {
+          const std::uint64_t to = std::min(pixel->goal, from + piece);
           wave.add(sensor, pixel->view, pixel->key(run), from, to, pixel->tallies);
           if (wave.size() > largest_wave) wave.run();
         }
@@ -237,17 +253,18 @@ void run_pixels(Run& run, const Sensor& sensor, SensorResult& result) {
 }
 
 template <class Tally>
-void run_views(Run& run, const Sensor& sensor, int orders, SensorResult& result) {
-  if (sensor.is_image()) return run_pixels<Tally>(run, sensor, result);
+void run_views(Run& run, const Sensor& sensor, const Sums<Tally>& sums, SensorResult& result) {
+  if (sensor.is_image()) return run_pixels<Tally>(run, sensor, sums, result);
   // Groups bound the memory of tallies; each gets its share of the time.
-  const bool counting = run.stage->optics.counts_interactions();
-  const std::size_t group = counting ? std::max<std::size_t>(1, static_cast<std::size_t>(threads()) / 8) : 8;
+  const bool large =
+      run.stage->optics.carriage == Carriage::counted || run.stage->optics.carriage == Carriage::spectrum;
+  const std::size_t group = large ? std::max<std::size_t>(1, static_cast<std::size_t>(threads()) / 8) : 8;
   const Clock::time_point start = Clock::now(), end = run.deadline;
   for (std::size_t first = 0; first < sensor.views() && !interrupted(); first += group) {
     const std::size_t last = std::min(sensor.views(), first + group);
     if (end != Clock::time_point::max())
       run.deadline = start + (end - start) / static_cast<long>(sensor.views()) * static_cast<long>(last);
-    run_group<Tally>(run, sensor, first, last, orders, result);
+    run_group<Tally>(run, sensor, first, last, sums, result);
   }
   run.deadline = end;
 }
@@ -284,27 +301,43 @@ std::uint64_t next_size(const Sampling& sampling, std::uint64_t now, double reac
 
 SensorResult run_sensor(Run& run, const Sensor& sensor) {
   const Simulation& simulation = *run.stage->simulation;
-  const bool counting = run.stage->optics.counts_interactions();
-  const std::size_t bands = simulation.bands.count(), views = sensor.views(),
-                    materials = simulation.materials.size();
+  const Optics& optics = run.stage->optics;
+  const std::size_t bands = simulation.bands.written(), views = sensor.views(),
+                    suns = simulation.light.suns.size(), by_material = suns * simulation.materials.size();
   constexpr int many_orders = 64, few_orders = 10;
-  int orders = simulation.sampling.orders > 0 ? simulation.sampling.orders
-               : counting                     ? few_orders
-                                              : many_orders;
-  if (simulation.sampling.max_order > 0) orders = std::min(orders, simulation.sampling.max_order);
+  const bool lean = optics.carriage == Carriage::carried || optics.carriage == Carriage::sampled;
+  Rows rows{suns, simulation.sampling.orders > 0 ? simulation.sampling.orders
+                  : lean                         ? many_orders
+                                                 : few_orders};
+  if (simulation.sampling.max_order > 0) rows.orders = std::min(rows.orders, simulation.sampling.max_order);
   SensorResult out;
   out.sensor = &sensor;
-  out.parts = parts_of(simulation.light, sensor.is_image() ? 0 : orders);
+  out.parts = parts_of(simulation.light, sensor.is_image() ? 0 : rows.orders);
+  if (sensor.is_image()) rows.orders = 1;
   out.radiance.resize(out.parts.size());
   for (Estimates& part : out.radiance) part.resize(views * bands);
   out.gap.resize(views);
-  out.sunlit.resize(views * materials);
-  out.shaded.resize(views * materials);
+  for (Estimates* fractions : {&out.sunlit, &out.shaded, &out.lit_behind})
+    fractions->resize(views * by_material);
+  out.sunlit_ground.resize(views * suns);
   out.samples.assign(views, 0);
-  if (counting)
-    run_views<InteractionTally>(run, sensor, orders, out);
-  else
-    run_views<LaneTally>(run, sensor, orders, out);
+  if (simulation.sampling.keep_interactions && optics.carriage == Carriage::counted)
+    out.histograms.resize(views);
+  const Sources sources(simulation);
+  switch (optics.carriage) {
+    case Carriage::carried:
+      run_views<LaneTally>(run, sensor, {LaneTally(optics, rows), sources}, out);
+      break;
+    case Carriage::counted:
+      run_views<InteractionTally>(run, sensor, {InteractionTally(optics, rows), sources}, out);
+      break;
+    case Carriage::spectrum:
+      run_views<SpectrumTally>(run, sensor, {SpectrumTally(optics, rows), sources}, out);
+      break;
+    case Carriage::sampled:
+      run_views<SampledTally>(run, sensor, {SampledTally(optics, rows, simulation), sources}, out);
+      break;
+  }
   drop_empty_orders(out);
   write_truncation(simulation.sampling, bands, out);
   return out;

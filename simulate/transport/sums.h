@@ -1,6 +1,6 @@
-// What the paths of one batch add up to, as unnormalised sums: the light of the sun per unit of (irradiance /
-// pi) and that of the sky per unit of radiance, by scattering order; the orders beyond the last kept are
-// added to it. `Moments` turns batches into estimates.
+// What the paths of one batch add up to, as unnormalised sums: the light of each sun per unit of (irradiance
+// / pi) and that of the sky per unit of (horizontal irradiance / pi), by scattering order; the orders beyond
+// the last kept are added to it. `Moments` turns batches into estimates.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -9,17 +9,34 @@
 
 namespace bpms {
 
-// Means over the paths of a batch: rows x bands.
-// Row 0: sky met directly (order 0). Row 1: sun, order 1, from the ground. Rows 2k, 2k + 1: sun and sky of
-// order k >= 1.
-struct BatchMeans {
-  std::size_t bands = 0;
+// The rows of sums: for each order 0 ... orders, one for each sun and one for the sky; then, for each sun,
+// the light of order 1 from the ground. Order 0 is what the sensor sees or receives directly.
+struct Rows {
+  std::size_t suns = 0;
   int orders = 0;
+  std::size_t per_order() const { return suns + 1; }
+  std::size_t sun(int order, std::size_t s) const {
+    return static_cast<std::size_t>(order) * per_order() + s;
+  }
+  std::size_t sky(int order) const { return static_cast<std::size_t>(order) * per_order() + suns; }
+  std::size_t ground_single(std::size_t s) const {
+    return static_cast<std::size_t>(orders + 1) * per_order() + s;
+  }
+  std::size_t count() const { return ground_single(suns); }
+  int kept(int order) const { return order < orders ? order : orders; }
+};
+
+// Means over the paths of a batch: rows x bands.
+struct BatchMeans {
+  Rows rows;
+  std::size_t bands = 0;
+  bool of_written_bands = false;  // the bands are those that are written, else those that are traced
   std::vector<double> mean;
-  static constexpr std::size_t sky_seen = 0, ground_single = 1;
-  static std::size_t sun(int order) { return 2 * static_cast<std::size_t>(order); }
-  static std::size_t sky(int order) { return 2 * static_cast<std::size_t>(order) + 1; }
-  std::size_t rows() const { return 2 * static_cast<std::size_t>(orders) + 2; }
+  void reset(const Rows& layout, std::size_t count) {
+    rows = layout;
+    bands = count;
+    mean.assign(rows.count() * bands, 0.0);
+  }
   double* row(std::size_t r) { return mean.data() + r * bands; }
   const double* row(std::size_t r) const { return mean.data() + r * bands; }
 };
@@ -28,7 +45,10 @@ struct BatchMeans {
 struct ViewCounts {
   std::uint64_t paths = 0, rays = 0, lost = 0;
   std::uint64_t gap = 0;
-  std::vector<std::uint64_t> sunlit, shaded;  // by material
+  std::vector<std::uint64_t> sunlit, shaded;  // by sun and material: sun * materials + material
+  std::vector<std::uint64_t> lit_behind;      // of the sunlit: lit on the face that is not seen
+  std::vector<std::uint64_t> sunlit_ground;   // by sun
+  void resize(std::size_t suns, std::size_t materials);
   void merge(const ViewCounts& other);
 };
 

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulate/transport/basis.h"
 #include "simulate/transport/interactions.h"
 #include "simulate/transport/lane_tally.h"
+#include "simulate/transport/sampled_tally.h"
+#include "simulate/transport/spectrum_tally.h"
 
 namespace bpms {
 namespace {
@@ -15,21 +18,6 @@ constexpr float inverse_pi = std::numbers::inv_pi_v<float>;
 // How many paths ahead memory is asked for: first the path, then what its sun ray will read.
 constexpr std::size_t far_ahead = 16, ahead = 8;
 constexpr std::uint64_t low_word = 0xffffffffu;
-
-// A direction about `normal` with density cos/pi. Basis: Duff et al. 2017, JCGT 6(1).
-Eigen::Vector3f cosine_direction(const Eigen::Vector3f& normal, double u, double v) {
-  const auto radius = static_cast<float>(std::sqrt(u));
-  const auto angle = static_cast<float>(2.0 * std::numbers::pi * v);
-  const float x = radius * std::cos(angle);
-  const float y = radius * std::sin(angle);
-  const auto z = static_cast<float>(std::sqrt(1.0 - u));
-  const float sign = std::copysign(1.0f, normal.z());
-  const float a = -1.0f / (sign + normal.z());
-  const float b = normal.x() * normal.y() * a;
-  const Eigen::Vector3f tangent(1.0f + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x());
-  const Eigen::Vector3f bitangent(b, sign + normal.y() * normal.y() * a, -normal.y());
-  return (x * tangent + y * bitangent + z * normal).normalized();
-}
 
 // The low ten bits of a cell's number, two apart.
 std::uint64_t spread(float x) {
@@ -41,6 +29,16 @@ std::uint64_t spread(float x) {
   return bits;
 }
 
+// Evenly over the cap of directions within acos(cos_radius) of `centre`.
+Eigen::Vector3f direction_in_cap(const Eigen::Vector3f& centre, float cos_radius,
+                                 const std::array<double, 2>& random) {
+  const double z = 1 - random[0] * (1 - static_cast<double>(cos_radius));
+  const double radius = std::sqrt(std::max(0.0, 1 - z * z)), angle = 2 * std::numbers::pi * random[1];
+  return Basis(centre)
+      .to_world(Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), z).cast<float>())
+      .normalized();
+}
+
 }  // namespace
 
 template <class Tally>
@@ -49,7 +47,8 @@ Wave<Tally>::Wave(const Stage& stage, const ParallelRays* view_rays)
       light_(stage.simulation->light),
       sampling_(stage.simulation->sampling),
       view_rays_(view_rays),
-      to_sun_(light_.sun ? light_.sun->direction.cast<float>().eval() : Eigen::Vector3f::UnitZ()) {
+      values_(std::max(lanes, stage.optics.bands)),
+      sky_values_(values_.size()) {
   const Extent& extent = stage.extent;
   const Eigen::Vector2d size = extent.high_m - extent.low_m;
   low_ = {static_cast<float>(extent.low_m.x()), static_cast<float>(extent.low_m.y()),
@@ -61,11 +60,11 @@ Wave<Tally>::Wave(const Stage& stage, const ParallelRays* view_rays)
 template <class Tally>
 void Wave<Tally>::add(const Sensor& sensor, std::size_t view, const ViewKey& key, std::uint64_t first,
                       std::uint64_t last, std::vector<Tally>& tallies) {
-  const std::size_t materials = stage_.optics.opaque.size();
+  const std::size_t materials = stage_.optics.surfaces.size();
+  const std::optional<Eigen::Vector3d> faces = sensor.faces(view);
   for (std::size_t batch = 0; batch < tallies.size(); ++batch) {
     Tally& tally = tallies[batch];
-    tally.counts.sunlit.resize(materials);
-    tally.counts.shaded.resize(materials);
+    tally.counts.resize(light_.suns.size(), materials);
     tally.counts.paths += last - first;
     PathNumbers& numbers = numbers_.emplace_back(key, static_cast<std::uint32_t>(batch));
     const auto slot = static_cast<std::uint32_t>(tallies_.size());
@@ -73,14 +72,22 @@ void Wave<Tally>::add(const Sensor& sensor, std::size_t view, const ViewKey& key
     for (std::uint64_t sample = first; sample < last; ++sample) {
       numbers.start(sample);
       const auto [u, v] = numbers.position();
-      const Ray ray = sensor.start(view, u, v, stage_.extent);
+      SensorNumbers random{u, v};
+      if (sensor.uses_aperture()) {
+        const auto [s, t] = numbers.aperture();
+        random.s = s, random.t = t;
+      }
+      const Ray ray = sensor.start(view, random, stage_.extent);
       Path& path = paths_.emplace_back();
-      path.weight = tally.unit();
+      path.weight = tally.unit(numbers);
       path.position = ray.origin;
       path.direction = ray.direction;
       path.extent = -1;
+      path.density = from_mirror;
       path.batch = slot;
       path.sample = static_cast<std::uint32_t>(sample);
+      path.branch = 0;
+      if (faces) receive_sun(faces->cast<float>(), ray, path);
     }
   }
 }
@@ -96,14 +103,18 @@ void Wave<Tally>::run() {
     order_.clear();
     for (std::size_t i = 0; i < paths_.size(); ++i)
       if (meet(paths_[i], order)) note(i);
-    if (order == sampling_.max_order && order > 0) break;  // only the sky was still to be gathered
+    if (order == sampling_.max_order && order > 0) {  // only the sky was still to be gathered
+      for (const std::uint64_t item : order_) release(paths_[item & low_word]);
+      break;
+    }
     sort();
     const auto path_at = [&](std::size_t i) -> Path& { return paths_[order_[i] & low_word]; };
     for (std::size_t i = 0; i < order_.size(); ++i) {
       if (i + far_ahead < order_.size()) __builtin_prefetch(&path_at(i + far_ahead));
-      if (stage_.sun_rays && i + ahead < order_.size())
-        stage_.sun_rays->prefetch(path_at(i + ahead).position);
-      if (interact(path_at(i), order)) next_.push_back(path_at(i));
+      if (i + ahead < order_.size())
+        for (const SunOptics& sun : stage_.suns)
+          if (sun.rays) sun.rays->prefetch(path_at(i + ahead).position);
+      go_on(path_at(i), order);
     }
   }
   paths_.clear();
@@ -140,6 +151,28 @@ void Wave<Tally>::sort() {
   }
 }
 
+// What a receiver of irradiance gets from the suns themselves.
+template <class Tally>
+void Wave<Tally>::receive_sun(const Eigen::Vector3f& normal, const Ray& ray, Path& path) {
+  Tally& tally = *tallies_[path.batch];
+  for (std::size_t s = 0; s < stage_.suns.size(); ++s) {
+    const SunOptics& sun = stage_.suns[s];
+    Eigen::Vector3f towards = sun.direction;
+    if (sun.radius > 0)
+      towards = direction_in_cap(towards, sun.cos_radius,
+                                 numbers_[path.batch].light(0xffffu, static_cast<std::uint32_t>(s)));
+    const float cosine = normal.dot(towards);
+    if (cosine <= 0) continue;
+    Weight weight = tally.copy(path.weight);
+    int order = 0;
+    Path here = path;
+    here.surface = ray.from;
+    if (sees(here, towards, no_grid, weight, order))
+      tally.add_sun(s, order, weight, {no_factor, cosine * inverse_pi * sun.weight, nullptr}, false);
+    tally.release(weight);
+  }
+}
+
 // False when it meets nothing; else the path is at what it met.
 template <class Tally>
 bool Wave<Tally>::meet(Path& path, int order) {
@@ -154,10 +187,14 @@ bool Wave<Tally>::meet(Path& path, int order) {
   ++tally.counts.rays;
   if (order == 0 && (end != Escape::hit || hit.ground)) ++tally.counts.gap;
   if (end == Escape::wrap_limit) ++tally.counts.lost;
-  if (end == Escape::top && light_.sky) tally.add_sky(order, path.weight);
-  if (end != Escape::hit) return false;
+  if (end == Escape::top) escape(path, order);
+  if (end != Escape::hit) {
+    release(path);
+    return false;
+  }
   path.position = hit.position;
-  path.normal = hit.geometric_normal;
+  path.normal = path.shading = hit.geometric_normal;
+  if (sampling_.interpolated_normals) path.shading = hit.shading_normal;
   path.surface = hit.id;
   path.extent = hit.extent;
   path.material = hit.material;
@@ -166,44 +203,256 @@ bool Wave<Tally>::meet(Path& path, int order) {
   return true;
 }
 
-// False when the path ends.
+// The radiance of the sky there over its mean, by traced band; null where it is the same everywhere.
+template <class Tally>
+const float* Wave<Tally>::sky_there(const Eigen::Vector3f& towards) {
+  if (!light_.sky->map) return nullptr;
+  light_.sky->map->radiance(towards, {sky_values_.data(), stage_.inverse_sky.size()});
+  for (std::size_t b = 0; b < stage_.inverse_sky.size(); ++b) sky_values_[b] *= stage_.inverse_sky[b];
+  return sky_values_.data();
+}
+
+// Light that a path which leaves the scene finds and could not, or not only, ask for on its way.
+template <class Tally>
+void Wave<Tally>::escape(const Path& path, int order) {
+  Tally& tally = *tallies_[path.batch];
+  if (light_.sky) {
+    Scatter by{no_factor, 1, sky_there(path.direction)};
+    if (by.values != nullptr && path.density >= 0)
+      by.scale = path.density / (path.density + light_.sky->map->pdf(path.direction));
+    tally.add_sky(order, path.weight, by);
+  }
+  if (path.density >= 0) return;
+  for (std::size_t s = 0; s < stage_.suns.size(); ++s) {
+    const SunOptics& sun = stage_.suns[s];
+    if (sun.radius > 0 && path.direction.dot(sun.direction) >= sun.cos_radius)
+      tally.add_sun(s, order, path.weight, {no_factor, sun.radiance, nullptr}, false);
+  }
+}
+
+// Gathers light where the path is, and sends it, or its branches, on.
+template <class Tally>
+void Wave<Tally>::go_on(Path& path, int order) {
+  if (!interact(path, order)) {
+    release(path);
+    return;
+  }
+  const int branches = order == 0 ? sampling_.diffuse_rays : 1;
+  if (branches > 1) {
+    tallies_[path.batch]->scale(path.weight, 1.0f / static_cast<float>(branches));
+    for (int b = 1; b < branches; ++b) {
+      Path branch = path;
+      branch.weight = tallies_[path.batch]->copy(path.weight);
+      branch.branch = static_cast<std::uint8_t>(b);
+      if (scatter(branch, order))
+        next_.push_back(branch);
+      else
+        release(branch);
+    }
+  }
+  if (scatter(path, order))
+    next_.push_back(path);
+  else
+    release(path);
+}
+
+// Gathers the light that the surface sends to the path's viewer. False when the path ends here.
 template <class Tally>
 bool Wave<Tally>::interact(Path& path, int order) {
-  const bool lit = light_.sun && gather_sun(path, order);
+  const std::size_t materials = stage_.optics.surfaces.size();
   ViewCounts& counts = tallies_[path.batch]->counts;
-  if (order == 0) ++(lit ? counts.sunlit : counts.shaded)[path.material];
-  if (order + 1 == sampling_.max_order && !light_.sky) return false;
-  return scatter(path, order);
+  for (std::size_t s = 0; s < stage_.suns.size(); ++s) {
+    bool behind = false;
+    const bool lit = gather_sun(path, order, s, behind);
+    if (order > 0) continue;
+    const std::size_t at = s * materials + path.material;
+    ++(lit ? counts.sunlit : counts.shaded)[at];
+    if (lit && behind) ++counts.lit_behind[at];
+    if (lit && path.ground) ++counts.sunlit_ground[s];
+  }
+  if (light_.sky && light_.sky->map) gather_sky(path, order);
+  return order + 1 != sampling_.max_order || light_.sky;
 }
 
+// visit(how much of the light from there goes to the viewer, density with which the path would go there by
+// this way)
 template <class Tally>
-bool Wave<Tally>::gather_sun(const Path& path, int order) {
-  const float cosine = path.normal.dot(to_sun_);
-  const bool same_side = (cosine > 0) == path.front;
-  if (!same_side && stage_.optics.opaque[path.material] != 0) return false;
+template <class Visit>
+void Wave<Tally>::each_way(const Path& path, const Eigen::Vector3f& to_light, Visit visit) {
+  const SurfaceOptics& surface = stage_.optics.surfaces[path.material];
+  const std::size_t face = path.front ? 0 : 1;
+  const bool same_side = (path.normal.dot(to_light) > 0) == path.front;
+  const float cosine = path.shading.dot(to_light);
+  if ((cosine > 0) != (same_side == path.front)) return;  // the two normals disagree: no light leaks
+  const float share = same_side ? surface.reflect_share[face] : 1 - surface.reflect_share[face];
+  const float chance = share * surface.diffuse_share[face];
+  if (chance > 0) {
+    const float lambert = std::abs(cosine) * inverse_pi;
+    visit(Scatter{same_side ? reflectance_factor(path.material, path.front)
+                            : transmittance_factor(path.material),
+                  lambert, nullptr},
+          chance * lambert);
+  }
+  if (surface.diffuse) return;
+  const Basis frame(path.front ? path.shading : Eigen::Vector3f(-path.shading));
+  const Eigen::Vector3f view = frame.to_local(-path.direction), light = frame.to_local(to_light);
+  if (view.z() <= 0) return;
+  for (std::size_t k = 0; k < surface.lobes.size(); ++k) {
+    const LobeOptics& lobe = surface.lobes[k];
+    const float chosen = surface.lobe_share[k][face];
+    if (!lobe.on_face[face] || lobe.lobe->is_delta() || !(chosen > 0)) continue;
+    Scatter by{lobe.factor, std::abs(cosine), nullptr};
+    if (lobe.factor != no_factor) {
+      by.scale *= lobe.lobe->shape(view, light);
+      if (!(by.scale > 0)) continue;
+    } else {
+      lobe.lobe->values(view, light, {values_.data(), stage_.optics.bands});
+      by.values = values_.data();
+    }
+    visit(by, chosen * lobe.lobe->pdf(view, light));
+  }
+}
+
+// Does the path's place see the light there, perhaps through surfaces that let it through? These multiply
+// `weight` and add to `order`. `sun`: whose grid of parallel rays may answer.
+template <class Tally>
+bool Wave<Tally>::sees(const Path& path, const Eigen::Vector3f& towards, std::size_t sun, Weight& weight,
+                       int& order) {
   Tally& tally = *tallies_[path.batch];
   ++tally.counts.rays;
-  if (stage_.sun_rays ? stage_.sun_rays->occluded(path.position, path.surface)
-                      : stage_.intersector->occluded(
-                            {path.position, to_sun_, 1e30f, path.surface, path.normal, path.extent}))
-    return false;
-  const Factor factor =
-      same_side ? reflectance_factor(path.material, path.front) : transmittance_factor(path.material);
-  tally.add_sun(order + 1, path.weight, factor, std::abs(cosine) * inverse_pi, path.ground);
-  return true;
+  Ray ray{path.position, towards, 1e30f, path.surface, path.normal, path.extent};
+  if (!stage_.optics.lets_through) {
+    if (sun != no_grid && stage_.suns[sun].rays)
+      return !stage_.suns[sun].rays->occluded(path.position, path.surface);
+    return !stage_.intersector->occluded(ray);
+  }
+  constexpr int most = 10000;  // surfaces; a ray that is caught between two ends here
+  Hit hit;
+  for (int passed = 0; passed < most; ++passed) {
+    if (stage_.intersector->intersect(ray, hit) != Escape::hit) return true;
+    const SurfaceOptics& surface = stage_.optics.surfaces[hit.material];
+    if (!surface.lets_through) return false;
+    const std::size_t face = hit.front ? 0 : 1;
+    // What goes straight on is a sum of spectra; one alone keeps a monomial.
+    std::size_t straight = 0;
+    Factor factor = no_factor;
+    for (const LobeOptics& lobe : surface.lobes)
+      if (lobe.lobe->is_straight() && lobe.on_face[face]) ++straight, factor = lobe.factor;
+    if (straight == 1 && !sampling_.attenuate_shadows) {
+      tally.scatter(weight, {factor, 1, nullptr});
+    } else {
+      std::fill(values_.begin(), values_.end(), 0.0f);
+      const auto add_spectrum = [&](Factor of) {
+        for (std::size_t b = 0; b < stage_.optics.bands; ++b)
+          values_[b] += static_cast<float>(stage_.optics.spectra[of][b]);
+      };
+      for (const LobeOptics& lobe : surface.lobes)
+        if (lobe.lobe->is_straight() && lobe.on_face[face]) add_spectrum(lobe.factor);
+      if (sampling_.attenuate_shadows) add_spectrum(transmittance_factor(hit.material));
+      tally.scatter(weight, {no_factor, 1, values_.data()});
+    }
+    if (!(weight.guide.largest() > 0)) return false;
+    ++order;
+    ++tally.counts.rays;
+    ray = {hit.position, towards, 1e30f, hit.id, hit.geometric_normal, hit.extent};
+  }
+  return false;
 }
 
+// Is it lit? `behind`: on the face that is not seen.
+template <class Tally>
+bool Wave<Tally>::gather_sun(const Path& path, int order, std::size_t s, bool& behind) {
+  const SunOptics& sun = stage_.suns[s];
+  Eigen::Vector3f towards = sun.direction;
+  if (sun.radius > 0) {
+    numbers_[path.batch].start(path.sample, path.branch);
+    towards = direction_in_cap(
+        towards, sun.cos_radius,
+        numbers_[path.batch].light(static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(s)));
+  }
+  behind = (path.normal.dot(towards) > 0) != path.front;
+  const SurfaceOptics& surface = stage_.optics.surfaces[path.material];
+  if (behind && surface.opaque) return false;
+  Tally& tally = *tallies_[path.batch];
+  if (!stage_.optics.lets_through) {
+    Weight unchanged{};
+    int none = 0;
+    if (!sees(path, towards, s, unchanged, none)) return false;
+    each_way(path, towards, [&](Scatter by, float) {
+      by.scale *= sun.weight;
+      tally.add_sun(s, order + 1, path.weight, by, path.ground);
+    });
+    return true;
+  }
+  Weight weight = tally.copy(path.weight);
+  int of_light = order + 1;
+  const bool lit = sees(path, towards, s, weight, of_light);
+  if (lit)
+    each_way(path, towards, [&](Scatter by, float) {
+      by.scale *= sun.weight;
+      tally.add_sun(s, of_light, weight, by, path.ground);
+    });
+  tally.release(weight);
+  return lit;
+}
+
+// Asks for the light of one direction of the sky. The ray that goes on may find the same: each counts by the
+// balance of their densities (Veach & Guibas 1995).
+template <class Tally>
+void Wave<Tally>::gather_sky(const Path& path, int order) {
+  numbers_[path.batch].start(path.sample, path.branch);
+  const auto random = numbers_[path.batch].light(static_cast<std::uint32_t>(order),
+                                                 static_cast<std::uint32_t>(stage_.suns.size()));
+  const SkyMap& map = *light_.sky->map;
+  const Eigen::Vector3f towards = map.sample(static_cast<float>(random[0]), static_cast<float>(random[1]));
+  const float density = map.pdf(towards);
+  if (!(density > 0)) return;
+  const bool behind = (path.normal.dot(towards) > 0) != path.front;
+  if (behind && stage_.optics.surfaces[path.material].opaque) return;
+  Tally& tally = *tallies_[path.batch];
+  Weight weight = tally.copy(path.weight);
+  int of_light = order + 1;
+  if (sees(path, towards, no_grid, weight, of_light)) {
+    const float* there = sky_there(towards);
+    each_way(path, towards, [&](Scatter by, float own) {
+      by.scale /= density + own;
+      if (by.values != nullptr) {
+        for (std::size_t b = 0; b < stage_.optics.bands; ++b) values_[b] *= there[b];
+      } else {
+        by.values = there;
+      }
+      tally.add_sky(of_light, weight, by);
+    });
+  }
+  tally.release(weight);
+}
+
+// Chooses where the path comes from next and with what weight. False when it ends.
 template <class Tally>
 bool Wave<Tally>::scatter(Path& path, int order) {
   PathNumbers& numbers = numbers_[path.batch];
-  numbers.start(path.sample);
-  const InteractionNumbers random = numbers.interaction(static_cast<std::uint32_t>(order));
-  const float share = stage_.optics.reflect_share[path.material][path.front ? 0 : 1];
-  const bool reflect = random.side < static_cast<double>(share);
-  if (reflect)
-    tallies_[path.batch]->scatter(path.weight, reflectance_factor(path.material, path.front), 1.0f / share);
-  else
-    tallies_[path.batch]->scatter(path.weight, transmittance_factor(path.material), 1.0f / (1.0f - share));
+  numbers.start(path.sample, path.branch);
+  InteractionNumbers random = numbers.interaction(static_cast<std::uint32_t>(order));
+  const SurfaceOptics& surface = stage_.optics.surfaces[path.material];
+  const std::size_t face = path.front ? 0 : 1;
+  if (surface.diffuse) {
+    if (!scatter_diffuse(path, random, 1)) return false;
+  } else {
+    // The number that chose the way is stretched to choose again.
+    double left = random.side;
+    const auto diffuse = static_cast<double>(surface.diffuse_share[face]);
+    if (left < diffuse) {
+      random.side = left / diffuse;
+      if (!scatter_diffuse(path, random, surface.diffuse_share[face])) return false;
+    } else {
+      left -= diffuse;
+      std::size_t k = 0;
+      while (k + 1 < surface.lobes.size() && left >= static_cast<double>(surface.lobe_share[k][face]))
+        left -= static_cast<double>(surface.lobe_share[k++][face]);
+      if (!(surface.lobe_share[k][face] > 0)) return false;
+      if (!scatter_lobe(path, surface.lobes[k], random, surface.lobe_share[k][face])) return false;
+    }
+  }
   const float strength = path.weight.guide.largest();
   if (!(strength > 0)) return false;
   if (sampling_.roulette) {
@@ -215,12 +464,55 @@ bool Wave<Tally>::scatter(Path& path, int order) {
     if (random.survival >= static_cast<double>(survival)) return false;
     if (survival < 1.0f) tallies_[path.batch]->scale(path.weight, 1.0f / survival);
   }
-  const Eigen::Vector3f outward = path.front == reflect ? path.normal : Eigen::Vector3f(-path.normal);
-  path.direction = cosine_direction(outward, random.direction_u, random.direction_v);
   return true;
+}
+
+// `chosen`: the chance with which the diffuse part was chosen.
+template <class Tally>
+bool Wave<Tally>::scatter_diffuse(Path& path, const InteractionNumbers& random, float chosen) {
+  const float share = stage_.optics.surfaces[path.material].reflect_share[path.front ? 0 : 1];
+  const bool reflect = random.side < static_cast<double>(share);
+  const float chance = (reflect ? share : 1.0f - share) * chosen;
+  tallies_[path.batch]->scatter(path.weight, {reflect ? reflectance_factor(path.material, path.front)
+                                                      : transmittance_factor(path.material),
+                                              1.0f / chance, nullptr});
+  const Eigen::Vector3f outward = path.front == reflect ? path.shading : Eigen::Vector3f(-path.shading);
+  path.direction = cosine_direction(outward, random.direction_u, random.direction_v);
+  path.density = chance * inverse_pi * outward.dot(path.direction);
+  return !sampling_.interpolated_normals || (path.normal.dot(path.direction) > 0) == (path.front == reflect);
+}
+
+template <class Tally>
+bool Wave<Tally>::scatter_lobe(Path& path, const LobeOptics& lobe, const InteractionNumbers& random,
+                               float chosen) {
+  const Basis frame(path.front ? path.shading : Eigen::Vector3f(-path.shading));
+  const Eigen::Vector3f view = frame.to_local(-path.direction);
+  Eigen::Vector3f light;
+  if (view.z() <= 0 || !lobe.lobe->sample(view, static_cast<float>(random.direction_u),
+                                          static_cast<float>(random.direction_v), light))
+    return false;
+  Scatter by{lobe.factor, 1 / chosen, nullptr};
+  if (lobe.lobe->is_delta()) {
+    path.density = from_mirror;
+  } else {
+    const float density = lobe.lobe->pdf(view, light);
+    if (!(density > 0)) return false;
+    path.density = chosen * density;
+    by.scale = std::abs(light.z()) / path.density;
+    if (lobe.factor != no_factor) by.scale *= lobe.lobe->shape(view, light);
+  }
+  if (lobe.factor == no_factor) {
+    lobe.lobe->values(view, light, {values_.data(), stage_.optics.bands});
+    by.values = values_.data();
+  }
+  tallies_[path.batch]->scatter(path.weight, by);
+  if (!lobe.lobe->is_straight()) path.direction = frame.to_world(light).normalized();
+  return lobe.lobe->is_straight() || (path.normal.dot(path.direction) > 0) == (path.front == (light.z() > 0));
 }
 
 template class Wave<LaneTally>;
 template class Wave<InteractionTally>;
+template class Wave<SpectrumTally>;
+template class Wave<SampledTally>;
 
 }  // namespace bpms

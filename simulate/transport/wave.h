@@ -1,8 +1,8 @@
-// Reverse path tracing: from the sensor, a ray to the sun at each interaction, one diffuse ray onward, the
-// sky gathered by the ray that escapes. Geometric normals throughout, so that no light leaks or is made.
-// Many paths advance together, one interaction at a time. All rays of an order are traced; then what they met
-// is sorted by where it is, the sun's rays are asked for in this order, and the paths go on in it: neighbours
-// read the same part of the scene, which is several times as fast as to follow each path to its end.
+// Reverse path tracing: from the sensor, a ray to each sun at each interaction (and one into a sky that is
+// not even), one ray onward, the sky gathered by the ray that escapes. Many paths advance together, one
+// interaction at a time. All rays of an order are traced; then what they met is sorted by where it is, the
+// sun's rays are asked for in this order, and the paths go on in it: neighbours read the same part of the
+// scene, which is several times as fast as to follow each path to its end.
 #pragma once
 #include <vector>
 
@@ -25,34 +25,54 @@ class Wave {
   void run();
 
  private:
+  using Weight = typename Tally::Weight;
   // A path on its way: the surface that it is at, and the direction in which it leaves.
   struct alignas(64) Path {
-    typename Tally::Weight weight;
-    Eigen::Vector3f position, normal, direction;
+    Weight weight;
+    Eigen::Vector3f position, normal, shading, direction;
     SurfaceId surface;
     float extent;
+    // Density of the direction, for light that could also have been asked for; from_mirror: it could not (the
+    // sensor's own direction, a mirror's, a window's).
+    float density;
     std::uint32_t material;
     std::uint32_t batch;  // into numbers_ and tallies_
     std::uint32_t sample;
+    std::uint8_t branch;
     bool front, ground;
   };
+  static constexpr float from_mirror = -1;
+  static constexpr std::size_t no_grid = ~std::size_t{0};
+
+  void release(const Path& path) { tallies_[path.batch]->release(path.weight); }
   void note(std::size_t path);
   void sort();
+  void receive_sun(const Eigen::Vector3f& normal, const Ray& ray, Path& path);
   bool meet(Path& path, int order);
+  void escape(const Path& path, int order);
+  void go_on(Path& path, int order);
   bool interact(Path& path, int order);
-  bool gather_sun(const Path& path, int order);
+  bool gather_sun(const Path& path, int order, std::size_t sun, bool& behind);
+  void gather_sky(const Path& path, int order);
   bool scatter(Path& path, int order);
+  bool scatter_diffuse(Path& path, const InteractionNumbers& random, float share);
+  bool scatter_lobe(Path& path, const LobeOptics& lobe, const InteractionNumbers& random, float share);
+  bool sees(const Path& path, const Eigen::Vector3f& towards, std::size_t sun, Weight& weight, int& order);
+  template <class Visit>
+  void each_way(const Path& path, const Eigen::Vector3f& to_light, Visit visit);
+  const float* sky_there(const Eigen::Vector3f& towards);
 
   const Stage& stage_;
   const Light& light_;
   const Sampling& sampling_;
   const ParallelRays* view_rays_;
-  Eigen::Vector3f to_sun_, low_;
+  Eigen::Vector3f low_;
   float cells_per_m_;
   std::vector<PathNumbers> numbers_;
   std::vector<Tally*> tallies_;
   std::vector<Path> paths_, next_;
   std::vector<std::uint64_t> order_, unsorted_;  // cell << 32 | index into paths_
+  std::vector<float> values_, sky_values_;       // by traced band
 };
 
 }  // namespace bpms

@@ -43,7 +43,7 @@ TEST(Input, WhatIsImpossibleIsRefusedWhereItStands) {
       {&SceneText::leaf, "type = \"lambertain\"\nreflectance = 0.1", "lambertian"},
       {&SceneText::leaf, "type = \"lambertian\"\nreflectence = 0.1", "reflectance"},
       {&SceneText::wavelengths_nm, "[650, 2501]", "2500"},
-      {&SceneText::wavelengths_nm, "[650]\nresponse = \"S2A.csv\"", "not built yet"},
+      {&SceneText::wavelengths_nm, "[650]\nresponse = \"S2A.csv\"", "expected one of wavelengths_nm"},
       {&SceneText::sampling, "samples = 64\ntarget_se = 0.1", "one of target_se and samples"},
       {&SceneText::sampling, "target_se = \"-1%\"", "above 0"},
       {&SceneText::sampling, "samples = 64\nmax_ordr = 3", "max_order"},
