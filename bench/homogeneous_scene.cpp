@@ -40,7 +40,8 @@ Simulation homogeneous(const std::string& data_folder, const std::vector<double>
   for (const double vza : vza_deg) text += fmt::format("{}, ", vza);
   const TomlDocument document = TomlDocument::parse("benchmark", text + "]\n");
   out.light = read_light(document.root(), scene.domain, out.bands, out.inputs, out.scene.notes);
-  out.sensors.push_back(read_sensor(document.root().get("sensor"), {out.scene, out.light, out.inputs, out.scene.notes}));
+  out.sensors.push_back(
+      read_sensor(document.root().get("sensor"), {out.scene, out.light, out.inputs, out.scene.notes}));
   return out;
 }
 

@@ -89,31 +89,21 @@ void FluxTally::add(std::size_t row, const float* weight) {
     for (std::size_t i = b; i < b + 8; ++i) to[i] += static_cast<double>(weight[i]);
 }
 
-void FluxTally::add(std::size_t row, const float* weight, const float* factor) {
-  if (row == FluxRows::none) return;
-  const std::size_t width = stage_->optics.width;
-  double* to = sums_.data() + row * width;
-  for (std::size_t b = 0; b < width; b += 8)
-    for (std::size_t i = b; i < b + 8; ++i)
-      to[i] += static_cast<double>(weight[i]) * static_cast<double>(factor[i]);
+void FluxTally::arrive(const Photon& photon, const float* weight, int order) {
+  if (!photon.ground || !photon.front) return;
+  add(rows_->of(Flux::transmitted), weight);
+  if (!photon.grounded) add(rows_->of(Flux::transmitted_first), weight);
+  if (order == 0) add(rows_->of(Flux::transmitted_direct), weight);
+  add(rows_->pixel(photon), weight);
 }
 
-void FluxTally::arrive(const Photon& photon, const float* weight, int order) {
-  const float* absorbed = stage_->optics.absorbed(photon.material, photon.front);
-  add(rows_->material(photon.material), weight, absorbed);
-  if (photon.ground) {
-    add(rows_->of(Flux::absorbed_ground), weight, absorbed);
-    if (!photon.front) return;
-    add(rows_->of(Flux::transmitted), weight);
-    if (!photon.grounded) add(rows_->of(Flux::transmitted_first), weight);
-    if (order == 0) add(rows_->of(Flux::transmitted_direct), weight);
-    add(rows_->pixel(photon), weight);
-    return;
-  }
-  add(rows_->of(Flux::absorbed_canopy), weight, absorbed);
-  add(rows_->organ(photon), weight, absorbed);
-  add(rows_->plant(photon), weight, absorbed);
-  add(rows_->layer(photon), weight, absorbed);
+void FluxTally::absorb(const Photon& photon, const float* weight) {
+  add(rows_->material(photon.material), weight);
+  add(rows_->of(photon.ground ? Flux::absorbed_ground : Flux::absorbed_canopy), weight);
+  if (photon.ground) return;
+  add(rows_->organ(photon), weight);
+  add(rows_->plant(photon), weight);
+  add(rows_->layer(photon), weight);
 }
 
 void FluxTally::leave(const Photon& photon, const float* weight, int order, Exit exit) {

@@ -37,6 +37,7 @@ class FluxTally {
   FluxTally(const PhotonStage& stage, const FluxRows& rows)
       : stage_(&stage), rows_(&rows), sums_(rows.all().size() * stage.optics.width, 0.0) {}
   void arrive(const Photon& photon, const float* weight, int order);
+  void absorb(const Photon& photon, const float* weight);
   void leave(const Photon& photon, const float* weight, int order, Exit exit);
 
   std::uint64_t photons = 0, rays = 0;
@@ -47,7 +48,6 @@ class FluxTally {
 
  private:
   void add(std::size_t row, const float* weight);
-  void add(std::size_t row, const float* weight, const float* factor);
   const PhotonStage* stage_;
   const FluxRows* rows_;
   std::vector<double> sums_;

@@ -22,7 +22,7 @@ class FluxRun {
       : stage_(simulation, intersector), rows_(stage_, options), seed_(seed) {
     for (const PhotonSource& source : stage_.sources) {
       tallies_.emplace_back(batches, FluxTally(stage_, rows_));
-      sun_rays_.push_back(source.is_sun && simulation.scene.domain.periodic
+      sun_rays_.push_back(source.is_sun && !source.has_directions() && simulation.scene.domain.periodic
                               ? intersector.parallel_rays(simulation.scene, source.towards)
                               : nullptr);
     }
@@ -50,7 +50,7 @@ class FluxRun {
     for (const Flux flux : {Flux::reflected, Flux::transmitted, Flux::absorbed_canopy}) {
       Estimates estimates;
       estimate(Origin::total, rows_.of(flux), rows_.of(flux) + 1, estimates);
-      for (std::size_t band = 0; band < stage_.optics.bands; ++band) {
+      for (std::size_t band = 0; band < estimates.value.size(); ++band) {
         const double target =
             sampling.relative ? sampling.target_se * estimates.value[band] : sampling.target_se;
         if (estimates.standard_error[band] > 0)
@@ -71,7 +71,7 @@ class FluxRun {
     if (direct && diffuse) out.origins = {Origin::total, Origin::direct, Origin::diffuse};
     for (const Origin origin : out.origins) {
       estimate(origin, 0, out.rows.size(), out.fraction.emplace_back());
-      out.entering.push_back(entering(origin));
+      out.entering.push_back(stage_.simulation->bands.integrate(entering(origin)));
     }
     for (const auto& source : tallies_)
       for (const FluxTally& tally : source) out.samples += tally.photons, out.rays += tally.rays;
@@ -82,6 +82,7 @@ class FluxRun {
   static bool belongs(const PhotonSource& source, Origin origin) {
     return origin == Origin::total || source.origin == origin;
   }
+  // Irradiance x m2 in the traced bands.
   std::vector<double> entering(Origin origin) const {
     std::vector<double> out(stage_.optics.bands, 0.0);
     for (const PhotonSource& source : stage_.sources)
@@ -89,29 +90,32 @@ class FluxRun {
         out[band] += source.irradiance[band] * source.entering_m2;
     return out;
   }
+  // In the written bands.
   void estimate(Origin origin, std::size_t first, std::size_t last, Estimates& out) const {
-    const std::size_t bands = stage_.optics.bands;
-    const std::vector<double> all = entering(origin);
-    out.resize((last - first) * bands);
+    const Bands& bands = stage_.simulation->bands;
+    const std::size_t traced = stage_.optics.bands, written = bands.written();
+    const std::vector<double> all = bands.integrate(entering(origin));
+    out.resize((last - first) * written);
+    std::vector<double> power(traced);
     for (std::size_t row = first; row < last; ++row) {
       // A pixel's irradiance over that of the horizontal: the pixels' mean is what all of it would be.
       const double scale = rows_.all()[row].flux == Flux::ground_irradiance ? rows_.pixels() : 1.0;
-      Moments moments(bands);
+      Moments moments(written);
       for (std::size_t batch = 0; batch < batches; ++batch) {
-        for (std::size_t band = 0; band < bands; ++band) {
-          double value = 0;
-          for (std::size_t s = 0; s < tallies_.size(); ++s) {
-            const PhotonSource& source = stage_.sources[s];
-            if (belongs(source, origin) && all[band] > 0)
-              value += source.irradiance[band] * source.entering_m2 / all[band] *
-                       tallies_[s][batch].mean(row, band);
-          }
-          moments.add(band, scale * value, batch);
+        std::fill(power.begin(), power.end(), 0.0);
+        for (std::size_t s = 0; s < tallies_.size(); ++s) {
+          const PhotonSource& source = stage_.sources[s];
+          if (!belongs(source, origin)) continue;
+          for (std::size_t band = 0; band < traced; ++band)
+            power[band] += source.irradiance[band] * source.entering_m2 * tallies_[s][batch].mean(row, band);
         }
+        const std::vector<double> value = bands.integrate(power);
+        for (std::size_t band = 0; band < written; ++band)
+          moments.add(band, all[band] > 0 ? scale * value[band] / all[band] : 0.0, batch);
       }
-      for (std::size_t band = 0; band < bands; ++band) {
-        out.value[(row - first) * bands + band] = moments.mean(band);
-        out.standard_error[(row - first) * bands + band] = moments.standard_error(band, batches);
+      for (std::size_t band = 0; band < written; ++band) {
+        out.value[(row - first) * written + band] = moments.mean(band);
+        out.standard_error[(row - first) * written + band] = moments.standard_error(band, batches);
       }
     }
   }
@@ -127,6 +131,11 @@ class FluxRun {
 
 FluxResult trace_fluxes(const Simulation& simulation, const Intersector& intersector, std::uint64_t seed,
                         const FluxOptions& options) {
+  for (const Material& material : simulation.materials)
+    if (material.map || material.bump)
+      throw Error(
+          ErrorKind::bad_input,
+          fmt::format("material {} has a map: fluxes are not built for maps yet", in_quotes(material.name)));
   FluxRun run(simulation, intersector, seed, options);
   const Sampling& sampling = simulation.sampling;
   Progress progress("photons", 0);

@@ -46,8 +46,9 @@ struct FluxRow {
 
 struct FluxResult {
   std::vector<FluxRow> rows;
-  std::vector<Origin> origins;      // total first, then direct and diffuse where both are there
-  std::vector<Estimates> fraction;  // by origin: rows x bands, of the power that enters from that origin
+  std::vector<Origin> origins;  // total first, then direct and diffuse where both are there
+  std::vector<Estimates>
+      fraction;  // by origin: rows x written bands, of the power that enters from that origin
   std::vector<std::vector<double>> entering;  // by origin, per band: irradiance (on the horizontal) x m2
   double ground_area_m2 = 0;                  // of the cell, or of the open scene's box
   std::array<int, 2> map_px{0, 0};

@@ -11,9 +11,13 @@ constexpr std::uint64_t largest_vertex_wave = 1 << 15;
 // A Sink (photon_wave.h).
 class VertexSink {
  public:
-  VertexSink(const PhotonStage& stage, const PhotonSource& source, std::size_t batch, int orders,
-             PathVertices& to)
-      : bands_(stage.optics.bands), sky_(!source.is_sun), batch_(batch), orders_(orders), to_(&to) {}
+  VertexSink(const PhotonStage& stage, std::size_t source, std::size_t batch, int orders, PathVertices& to)
+      : bands_(stage.optics.bands),
+        source_(source),
+        sky_(!stage.sources[source].is_sun),
+        batch_(batch),
+        orders_(orders),
+        to_(&to) {}
   void arrive(const Photon& photon, const float* weight, int order) {
     if (order == 0 && !sky_) return;
     PathVertex& v = to_->list.emplace_back();
@@ -28,13 +32,14 @@ class VertexSink {
     v.batch = static_cast<std::uint8_t>(batch_ & 31u);
     v.front = photon.front;
     v.ground = photon.ground;
-    v.sky = sky_;
+    v.source = static_cast<std::uint8_t>(source_);
     to_->weights.insert(to_->weights.end(), weight, weight + bands_);
   }
+  void absorb(const Photon&, const float*) {}
   void leave(const Photon&, const float*, int, Exit) {}
 
  private:
-  std::size_t bands_;
+  std::size_t bands_, source_;
   bool sky_;
   std::size_t batch_;
   int orders_;
@@ -51,7 +56,7 @@ PathVertices trace_vertices(const PhotonStage& stage, const std::vector<const Pa
   std::vector<PathVertices> pieces(stage.sources.size() * batches);
   parallel_for(pieces.size(), [&](std::size_t i) {
     const std::size_t s = i / batches, batch = i % batches;
-    VertexSink sink(stage, stage.sources[s], batch, orders, pieces[i]);
+    VertexSink sink(stage, s, batch, orders, pieces[i]);
     PhotonWave<VertexSink> wave(stage, sink);
     for (std::uint64_t from = first; from < last; from += largest_vertex_wave)
       wave.run(stage.sources[s], sun_rays[s], {seed, stream, s}, static_cast<std::uint32_t>(batch), from,
@@ -68,12 +73,12 @@ PathVertices trace_vertices(const PhotonStage& stage, const std::vector<const Pa
     out.rays += piece.rays;
   }
   std::vector<std::uint64_t> places(count), spare;
-  std::vector<std::uint8_t> piece_of(count);
+  std::vector<std::uint16_t> piece_of(count);
   parallel_for(pieces.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < pieces[i].list.size(); ++k) {
       const std::size_t at = begin[i] + k;
       places[at] = std::uint64_t{place_on_curve(pieces[i].list[k].position, stage.extent)} << 32 | at;
-      piece_of[at] = static_cast<std::uint8_t>(i);
+      piece_of[at] = static_cast<std::uint16_t>(i);
     }
   });
   sort_places(places, spare);

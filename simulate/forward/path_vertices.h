@@ -13,8 +13,9 @@ struct PathVertex {
   std::uint32_t sample;
   std::uint16_t material;
   std::uint8_t order;  // of the light that leaves from here: 1 and more, the last for all beyond
-  std::uint8_t batch : 5, front : 1, ground : 1, sky : 1;  // sky: the source; else the sun
+  std::uint8_t batch : 5, front : 1, ground : 1;
   std::uint8_t geometry;
+  std::uint8_t source;  // index into PhotonStage::sources
 
   SurfaceId surface() const { return {instance, geometry, primitive}; }
 };

@@ -3,10 +3,8 @@
 namespace bpms {
 
 PhotonOptics::PhotonOptics(const Simulation& simulation)
-    : bands(simulation.bands.count()), width((bands + 7) / 8 * 8) {
-  const Optics optics = make_optics(simulation);
-  share_ = optics.reflect_share;
-  opaque_ = optics.opaque;
+    : bands(simulation.bands.count()), width((bands + 7) / 8 * 8), optics_(make_optics(simulation)) {
+  const Optics& optics = optics_;
   factors_.assign(optics.spectra.size() * width, 0.0f);
   absorbed_.assign(2 * simulation.materials.size() * width, 0.0f);
   for (std::size_t f = 0; f < optics.spectra.size(); ++f)

@@ -15,18 +15,17 @@ class PhotonOptics {
 
   std::size_t bands, width;
   const float* factor(Factor which) const { return factors_.data() + which * width; }
-  // 1 - reflectance - transmittance of a face.
+  // 1 - reflectance - transmittance of a face of a diffuse surface.
   const float* absorbed(std::uint32_t material, bool front) const {
     return absorbed_.data() + (2 * material + (front ? 0 : 1)) * width;
   }
-  float reflect_share(std::uint32_t material, bool front) const { return share_[material][front ? 0 : 1]; }
+  const SurfaceOptics& surface(std::uint32_t material) const { return optics_.surfaces[material]; }
   float largest_factor() const { return *std::max_element(factors_.begin(), factors_.end()); }
-  bool opaque(std::uint32_t material) const { return opaque_[material] != 0; }
+  bool opaque(std::uint32_t material) const { return optics_.surfaces[material].opaque; }
 
  private:
+  Optics optics_;
   std::vector<float> factors_, absorbed_;
-  std::vector<std::array<float, 2>> share_;
-  std::vector<char> opaque_;
 };
 
 // Over rows of `width` floats (a multiple of 8).

@@ -2,7 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "simulate/transport/basis.h"
 
 namespace bpms {
 namespace {
@@ -25,19 +26,57 @@ PhotonStage::PhotonStage(const Simulation& all, const Intersector& rays)
       extent(extent_of(rays)),
       sources(photon_sources(all, extent)) {}
 
-// Basis: Duff et al. 2017, JCGT 6(1).
-Eigen::Vector3f cosine_about(const Eigen::Vector3f& normal, double u, double v) {
-  const auto radius = static_cast<float>(std::sqrt(u));
-  const auto angle = static_cast<float>(2.0 * std::numbers::pi * v);
-  const float x = radius * std::cos(angle);
-  const float y = radius * std::sin(angle);
-  const auto z = static_cast<float>(std::sqrt(1.0 - u));
-  const float sign = std::copysign(1.0f, normal.z());
-  const float a = -1.0f / (sign + normal.z());
-  const float b = normal.x() * normal.y() * a;
-  const Eigen::Vector3f tangent(1.0f + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x());
-  const Eigen::Vector3f bitangent(b, sign + normal.y() * normal.y() * a, -normal.y());
-  return (x * tangent + y * bitangent + z * normal).normalized();
+void scatter_diffuse(Photon& photon, const PhotonOptics& optics, const InteractionNumbers& random,
+                     float chosen, float* weight) {
+  const float share = optics.surface(photon.material).reflect_share[photon.front ? 0 : 1];
+  const bool reflect = random.side < static_cast<double>(share);
+  multiply_weights(weight,
+                   optics.factor(reflect ? reflectance_factor(photon.material, photon.front)
+                                         : transmittance_factor(photon.material)),
+                   1.0f / ((reflect ? share : 1.0f - share) * chosen), optics.width);
+  const Eigen::Vector3f outward = photon.front == reflect ? photon.normal : Eigen::Vector3f(-photon.normal);
+  photon.direction = cosine_direction(outward, random.direction_u, random.direction_v);
+}
+
+bool scatter_lobes(Photon& photon, const PhotonOptics& optics, InteractionNumbers random, float* weight) {
+  const SurfaceOptics& surface = optics.surface(photon.material);
+  const std::size_t face = photon.front ? 0 : 1;
+  // The number that chose the way is stretched to choose again.
+  const auto diffuse = static_cast<double>(surface.diffuse_share[face]);
+  if (random.side < diffuse) {
+    random.side /= diffuse;
+    scatter_diffuse(photon, optics, random, surface.diffuse_share[face], weight);
+    return true;
+  }
+  double left = random.side - diffuse;
+  std::size_t k = 0;
+  while (k + 1 < surface.lobes.size() && left >= static_cast<double>(surface.lobe_share[k][face]))
+    left -= static_cast<double>(surface.lobe_share[k++][face]);
+  const float chosen = surface.lobe_share[k][face];
+  const LobeOptics& lobe = surface.lobes[k];
+  if (!(chosen > 0)) return false;
+  const Basis frame(photon.front ? photon.normal : Eigen::Vector3f(-photon.normal));
+  const Eigen::Vector3f from = frame.to_local(-photon.direction);
+  Eigen::Vector3f to;
+  if (from.z() <= 0 || !lobe.lobe->sample(from, static_cast<float>(random.direction_u),
+                                          static_cast<float>(random.direction_v), to))
+    return false;
+  float scale = 1 / chosen;
+  if (!lobe.lobe->is_delta()) {
+    const float density = lobe.lobe->pdf(from, to);
+    if (!(density > 0)) return false;
+    scale *= std::abs(to.z()) / density;
+    if (lobe.factor != no_factor) scale *= lobe.lobe->shape(from, to);
+  }
+  if (lobe.factor != no_factor) {
+    multiply_weights(weight, optics.factor(lobe.factor), scale, optics.width);
+  } else {
+    std::vector<float> values(optics.width, 0.0f);
+    lobe.lobe->values(from, to, {values.data(), optics.bands});
+    multiply_weights(weight, values.data(), scale, optics.width);
+  }
+  if (!lobe.lobe->is_straight()) photon.direction = frame.to_world(to).normalized();
+  return true;
 }
 
 std::uint32_t place_on_curve(const Eigen::Vector3f& point, const Extent& extent) {

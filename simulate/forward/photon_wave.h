@@ -5,6 +5,7 @@
 //
 // A Sink receives what happens, in an order that depends on the samples alone:
 //   void arrive(const Photon&, const float* weight, int order)   at a surface, before it scatters there
+//   void absorb(const Photon&, const float* weight)              what of it stays there
 //   void leave(const Photon&, const float* weight, int order, Exit)
 // `order`: interactions so far. Weights: one float a band, 1 at the start unless the source colours them.
 #pragma once
@@ -43,7 +44,7 @@ struct PhotonStage {
 template <class Sink>
 class PhotonWave {
  public:
-  PhotonWave(const PhotonStage& stage, Sink& sink) : stage_(stage), sink_(sink) {}
+  PhotonWave(const PhotonStage& stage, Sink& sink) : stage_(stage), sink_(sink), lost_(stage.optics.width) {}
   // `rays` towards the source, where it is a sun and the scene suits; else null.
   void run(const PhotonSource& source, const ParallelRays* rays, const ViewKey& key, std::uint32_t batch,
            std::uint64_t first, std::uint64_t last);
@@ -51,19 +52,23 @@ class PhotonWave {
 
  private:
   bool meet(Photon& photon, const ParallelRays* rays, int order);
-  bool scatter(Photon& photon, const InteractionNumbers& random);
+  bool scatter(Photon& photon, InteractionNumbers random);
   float* weight(const Photon& photon) { return weights_.data() + photon.slot * stage_.optics.width; }
 
   const PhotonStage& stage_;
   Sink& sink_;
   std::vector<Photon> photons_, next_;
-  std::vector<float> weights_;
+  std::vector<float> weights_, lost_;
   std::vector<std::uint64_t> order_;  // place along the curve << 32 | index into photons_
   std::uint64_t traced_ = 0;
 };
 
-// A direction about `normal` with density cos/pi.
-Eigen::Vector3f cosine_about(const Eigen::Vector3f& normal, double u, double v);
+// New direction and weights, by the diffuse part, which was chosen with that chance.
+void scatter_diffuse(Photon& photon, const PhotonOptics& optics, const InteractionNumbers& random,
+                     float chosen, float* weight);
+// By any part of a surface that has lobes. They are reciprocal: what the sensor's side is to a lobe, the
+// photon's is here. False: it ends.
+bool scatter_lobes(Photon& photon, const PhotonOptics& optics, InteractionNumbers random, float* weight);
 // The place of a point along a Morton curve through the scene's box, in 30 bits.
 std::uint32_t place_on_curve(const Eigen::Vector3f& point, const Extent& extent);
 // By the upper half, equal ones as they stand.
@@ -85,7 +90,7 @@ void PhotonWave<Sink>::run(const PhotonSource& source, const ParallelRays* rays,
     numbers.start(sample);
     const auto place = numbers.position();
     std::array<double, 4> four{place[0], place[1], 0.5, 0.5};
-    if (!source.is_sun) {
+    if (source.has_directions()) {
       const InteractionNumbers direction = numbers.interaction(0);
       four[2] = direction.direction_u, four[3] = direction.direction_v;
     }
@@ -121,9 +126,9 @@ void PhotonWave<Sink>::run(const PhotonSource& source, const ParallelRays* rays,
     for (const std::uint64_t item : order_) {
       Photon& photon = next_[item & 0xffffffffu];
       sink_.arrive(photon, weight(photon), order);
-      if (most > 0 && order + 1 >= most) continue;
       numbers.start(photon.sample);
-      if (scatter(photon, numbers.interaction(static_cast<std::uint32_t>(order) + shift)))
+      if (scatter(photon, numbers.interaction(static_cast<std::uint32_t>(order) + shift)) &&
+          (most == 0 || order + 1 < most))
         photons_.push_back(photon);
     }
   }
@@ -158,26 +163,31 @@ bool PhotonWave<Sink>::meet(Photon& photon, const ParallelRays* rays, int order)
 }
 
 template <class Sink>
-bool PhotonWave<Sink>::scatter(Photon& photon, const InteractionNumbers& random) {
+bool PhotonWave<Sink>::scatter(Photon& photon, InteractionNumbers random) {
   const std::size_t width = stage_.optics.width;
   float* of = weight(photon);
+  const SurfaceOptics& surface = stage_.optics.surface(photon.material);
+  bool goes_on = true;
+  if (surface.diffuse) {
+    const float* absorbed = stage_.optics.absorbed(photon.material, photon.front);
+    for (std::size_t b = 0; b < width; ++b) lost_[b] = of[b] * absorbed[b];
+    scatter_diffuse(photon, stage_.optics, random, 1, of);
+  } else {
+    // What stays is what does not go on: right in the mean, though not photon by photon.
+    std::copy_n(of, width, lost_.begin());
+    goes_on = scatter_lobes(photon, stage_.optics, random, of);
+    for (std::size_t b = 0; b < width; ++b) lost_[b] -= goes_on ? of[b] : 0.0f;
+  }
+  sink_.absorb(photon, lost_.data());
   photon.grounded = photon.grounded || photon.ground;
-  const float share = stage_.optics.reflect_share(photon.material, photon.front);
-  const bool reflect = random.side < static_cast<double>(share);
-  multiply_weights(of,
-                   stage_.optics.factor(reflect ? reflectance_factor(photon.material, photon.front)
-                                                : transmittance_factor(photon.material)),
-                   reflect ? 1.0f / share : 1.0f / (1.0f - share), width);
   const float strength = largest_weight(of, width);
-  if (!(strength > 0)) return false;
+  if (!goes_on || !(strength > 0)) return false;
   if (stage_.simulation->sampling.roulette) {
     constexpr float factor = 1.6f;  // as from the sensor (transport/wave.cpp)
     const float survival = factor * strength;
     if (random.survival >= static_cast<double>(survival)) return false;
     if (survival < 1.0f) scale_weights(of, 1.0f / survival, width);
   }
-  const Eigen::Vector3f outward = photon.front == reflect ? photon.normal : Eigen::Vector3f(-photon.normal);
-  photon.direction = cosine_about(outward, random.direction_u, random.direction_v);
   return true;
 }
 

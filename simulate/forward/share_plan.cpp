@@ -46,8 +46,9 @@ bool is_reached(const ViewSums::Variances& view, const Sampling& sampling) {
   return true;
 }
 
-std::vector<ViewGoal> plan_views(const std::vector<ViewSums>& views, const Sampling& sampling,
+std::vector<ViewGoal> plan_views(const std::vector<ViewSums>& views, const Sources& sources,
                                  const ShareCosts& costs) {
+  const Sampling& sampling = sources.simulation->sampling;
   const std::uint64_t most = std::max<std::uint64_t>(1, sampling.max_samples / batches);
   std::vector<ViewGoal> out;
   std::uint64_t base = 1;  // paths that are traced already, at most
@@ -65,7 +66,7 @@ std::vector<ViewGoal> plan_views(const std::vector<ViewSums>& views, const Sampl
   std::vector<std::vector<Choice>> best(views.size());
   std::vector<double> work(steps, 0.0);
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const ViewSums::Variances known = views[v].variances();
+    const ViewSums::Variances known = views[v].variances(sources);
     if (is_reached(known, sampling)) continue;
     const auto done_rays = static_cast<double>(views[v].rays()),
                done_photons = static_cast<double>(views[v].photons());

@@ -18,7 +18,7 @@ struct ShareCosts {
 };
 
 // From what the views know so far; a view that is done keeps what it has. Grows by at most 16 times.
-std::vector<ViewGoal> plan_views(const std::vector<ViewSums>& views, const Sampling& sampling,
+std::vector<ViewGoal> plan_views(const std::vector<ViewSums>& views, const Sources& sources,
                                  const ShareCosts& costs);
 
 // Has the view reached its target?

@@ -62,12 +62,12 @@ class SharedRun {
         index_(sensor_index),
         orders_(orders),
         stage_(simulation, intersector),
+        sources_(simulation),
         grids_(simulation, intersector, sensor) {
     for (const PhotonSource& source : stage_.sources) {
       sun_grids_.push_back(source.is_sun ? intersector.parallel_rays(simulation.scene, source.towards)
                                          : nullptr);
       sun_rays_.push_back(sun_grids_.back().get());
-      if (source.is_sun) to_sun_ = sun_rays_.back();
     }
     for (std::size_t view = 0; view < sensor.views(); ++view)
       views_.emplace_back(stage_, sensor, view, orders);
@@ -104,7 +104,7 @@ class SharedRun {
                    photons = done < most && wants_photons(v, upto);
         if (interrupted() || !(rays || photons)) return;
         const std::shared_ptr<const ParallelRays> grid = with_grids ? grids_.get(v) : nullptr;
-        if (rays) view.add_rays({seed_, index_, v}, grid.get(), to_sun_, goals[v].rays);
+        if (rays) view.add_rays({seed_, index_, v}, grid.get(), sun_rays_, goals[v].rays);
         if (!photons) return;
         view.add_vertices(vertices, grid.get(), std::min(upto, goals[v].photons));
         view.end_photons(std::min(upto, goals[v].photons));
@@ -122,15 +122,17 @@ class SharedRun {
     // Microseconds, as measured on HET01: through grids, and through the hierarchy.
     const ShareCosts costs = grids_.suits() ? ShareCosts{0.25, 0.06 * vertices, 1.3 * rays}
                                             : ShareCosts{2.0, 1.0 * vertices, 1.3 * rays};
-    return plan_views(views_, simulation_->sampling, costs);
+    return plan_views(views_, sources_, costs);
   }
 
   bool has_grids_at_hand() const { return grids_.keeps(); }
   const std::vector<ViewSums>& views() const { return views_; }
+  bool reached(std::size_t view) const {
+    return is_reached(views_[view].variances(sources_), simulation_->sampling);
+  }
 
   void finish(SensorResult& result, std::vector<double>& covariance) const {
-    const Light& light = simulation_->light;
-    const std::size_t bands = stage_.optics.bands, count = views_.size();
+    const std::size_t bands = simulation_->bands.written(), count = views_.size();
     std::vector<double> totals(batches * count * bands), value(bands);
     for (std::size_t v = 0; v < count; ++v) {
       if (views_[v].rays() == 0) continue;
@@ -140,11 +142,11 @@ class SharedRun {
         means.push_back(views_[v].means(batch));
         counts.push_back(&views_[v].counts(batch));
         result.rays += counts.back()->rays;
-        part_of_batch({}, means.back(), light, value);
+        part_of_batch({}, means.back(), sources_, value);
         std::copy(value.begin(), value.end(),
                   totals.begin() + static_cast<std::ptrdiff_t>((batch * count + v) * bands));
       }
-      write_estimates(means, counts, light, v, result);
+      write_estimates(means, counts, sources_, v, result);
       result.samples[v] += views_[v].photons() * batches;
     }
     result.rays += photon_rays_;
@@ -174,10 +176,10 @@ class SharedRun {
   std::uint32_t index_;
   int orders_;
   PhotonStage stage_;
+  Sources sources_;
   ViewGrids grids_;
   std::vector<std::unique_ptr<ParallelRays>> sun_grids_;
   std::vector<const ParallelRays*> sun_rays_;
-  const ParallelRays* to_sun_ = nullptr;
   std::vector<ViewSums> views_;
   std::uint64_t photon_rays_ = 0, vertices_ = 0, paths_ = 0;
 };
@@ -202,13 +204,24 @@ bool can_share_paths(const Simulation& simulation, const Sensor& sensor, std::st
     if (why != nullptr) *why = reason;
     return false;
   };
-  constexpr std::size_t most_bands = 64, most_materials = 65536;
+  constexpr std::size_t most_bands = 64, most_materials = 65536, most_suns = 254;
   if (!simulation.scene.domain.periodic)
     return no("the scene is open, and light would come from beyond its box");
   if (simulation.bands.count() > most_bands) return no("there are more than 64 bands");
   if (simulation.materials.size() > most_materials) return no("there are more than 65 536 materials");
+  if (simulation.light.suns.size() > most_suns) return no("there are more than 254 suns");
+  if (simulation.bands.sampled) return no("its bands are sampled");
+  for (const Material& material : simulation.materials)
+    if (!material.is_diffuse()) return no("a material is not diffuse alone");
+  for (const Sun& sun : simulation.light.suns)
+    if (sun.radius > 0) return no("a sun is a disc");
+  const Sampling& sampling = simulation.sampling;
+  if (sampling.interpolated_normals) return no("normals are interpolated");
+  if (sampling.attenuate_shadows) return no("shadows are attenuated");
+  if (sampling.keep_interactions) return no("interactions are kept");
   for (std::size_t view = 0; view < sensor.views(); ++view)
-    if (!sensor.parallel(view)) return no("its rays are not parallel");
+    if (!sensor.parallel(view) || sensor.measures() != Measures::radiance)
+      return no("its rays are not parallel");
   return true;
 }
 
@@ -219,16 +232,19 @@ SharedViews trace_shared_views(const Simulation& simulation, const Intersector& 
   constexpr int many_orders = 64, most_orders = 255;
   int orders = std::min(most_orders, sampling.orders > 0 ? sampling.orders : many_orders);
   if (sampling.max_order > 0) orders = std::min(orders, sampling.max_order);
+  if (sampling.max_order != 1) orders = std::max(orders, 2);  // order 1 comes another way than the rest
   SharedViews out;
   SensorResult& result = out.result;
-  const std::size_t bands = simulation.bands.count(), count = sensor.views();
+  const std::size_t bands = simulation.bands.written(), count = sensor.views(),
+                    suns = simulation.light.suns.size();
   result.sensor = &sensor;
   result.parts = parts_of(simulation.light, orders);
   result.radiance.resize(result.parts.size());
   for (Estimates& part : result.radiance) part.resize(count * bands);
   result.gap.resize(count);
-  result.sunlit.resize(count * simulation.materials.size());
-  result.shaded.resize(count * simulation.materials.size());
+  for (Estimates* fractions : {&result.sunlit, &result.shaded, &result.lit_behind})
+    fractions->resize(count * suns * simulation.materials.size());
+  result.sunlit_ground.resize(count * suns);
   result.samples.assign(count, 0);
 
   SharedRun run(simulation, intersector, sensor, seed, sensor_index, orders);
@@ -250,7 +266,7 @@ SharedViews trace_shared_views(const Simulation& simulation, const Intersector& 
       growth =
           std::max({growth, static_cast<double>(next[v].rays) / static_cast<double>(run.views()[v].rays()),
                     static_cast<double>(next[v].photons) / static_cast<double>(run.views()[v].photons())});
-      if (sampling.target_se > 0) reached = reached && is_reached(run.views()[v].variances(), sampling);
+      if (sampling.target_se > 0) reached = reached && run.reached(v);
     }
     out.stopped_by = sampling.samples > 0 ? "samples" : reached ? "target_se" : "max_samples";
     if (!more) break;
