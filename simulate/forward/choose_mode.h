@@ -2,9 +2,10 @@
 //
 // Images, receivers and open scenes: reverse. Fluxes: always forward. Directions of parallel rays: shared
 // photon paths cost one tracing for all views and then, for each view, a look from every vertex; the reverse
-// mode costs whole paths for every view. Looks through a grid (scenes of discs) take some 60 ns, through the
-// hierarchy some 1 us, a reverse path some 4 us; a view needs up to three times as many photon paths as
-// reverse paths to the same error (grazing views most). So sharing pays from a few views on.
+// mode costs whole paths for every view. Looks through a grid (scenes of discs) are many times cheaper than
+// those through the hierarchy (meshes), but a view needs up to three times as many photon paths as reverse
+// paths to the same error (grazing views most). So sharing is taken from a few views on; the two numbers
+// below are estimates.
 #pragma once
 #include <string>
 

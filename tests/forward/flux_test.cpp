@@ -1,12 +1,14 @@
 // Fluxes from the light: energy, closed forms, the reverse mode, the same bits on any number of threads.
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "simulate/forward/forward.h"
+#include "simulate/transport/basis.h"
 #include "tests/simulate/hemisphere.h"
 
 namespace bpms::test {
@@ -31,6 +33,21 @@ double sum_of(const FluxResult& result, Flux which, std::size_t band = 0) {
     if (result.rows[r].flux == which) sum += result.fraction[0].value[r * result.entering[0].size() + band];
   return sum;
 }
+
+// Lambert's law as a lobe.
+class LambertLobe : public Lobe {
+ public:
+  float shape(const Eigen::Vector3f&, const Eigen::Vector3f& light) const override {
+    return light.z() > 0 ? static_cast<float>(1 / pi) : 0.0f;
+  }
+  bool sample(const Eigen::Vector3f&, float u, float v, Eigen::Vector3f& light) const override {
+    light = cosine_direction(Eigen::Vector3f::UnitZ(), static_cast<double>(u), static_cast<double>(v));
+    return true;
+  }
+  float pdf(const Eigen::Vector3f&, const Eigen::Vector3f& light) const override {
+    return std::max(0.0f, light.z()) * static_cast<float>(1 / pi);
+  }
+};
 
 // A horizontal square [x0, x1] x [y0, y1] at height z, of one organ.
 std::string square(double x0, double x1, double y0, double y1, double z) {
@@ -225,6 +242,99 @@ TEST(Fluxes, SkyIsTheMeanOfSuns) {
   };
   expect(Flux::reflected, reflected);
   expect(Flux::transmitted, transmitted);
+}
+
+// A sky that brightens to one side, over black ground: all of it arrives. The same everywhere, over a canopy:
+// as the isotropic one.
+TEST(Fluxes, SkyMapsCarryTheirIrradiance) {
+  const TemporaryFolder folder;
+  constexpr std::size_t zeniths = 10, azimuths = 24;
+  const auto with_map = [&](const SceneText& text, bool even) {
+    Simulation out = simulation_of(folder, text);
+    std::vector<float> radiance;
+    for (std::size_t row = 0; row < zeniths; ++row)
+      for (std::size_t column = 0; column < azimuths; ++column)
+        radiance.push_back(even ? 2.0f
+                                : 1.0f + static_cast<float>(row) *
+                                             (1 + std::sin(static_cast<float>(column) * 0.2618f)));
+    out.light.sky->map = std::make_shared<SkyMap>(zeniths, azimuths, 1, radiance);
+    out.light.sky->radiance = {out.light.sky->map->irradiance()[0] / pi};
+    return out;
+  };
+  SceneText scene;
+  scene.soil = lambertian("0.0");
+  scene.ground = "soil";
+  scene.sky = white_sky;
+  scene.sensor = views("[[0, 0]]");
+  scene.sampling = "samples = 65536\nroulette = false";
+  const Value all = flux(fluxes_of(with_map(scene, false)), Flux::transmitted);
+  EXPECT_NEAR(all.value, 1.0, 4 * all.error + 1e-3);  // the map's own quadrature
+  EXPECT_LT(all.error, 1e-3);
+  scene = canopy(folder);
+  scene.sky = white_sky;
+  scene.sampling = "samples = 131072";
+  const Value even = flux(fluxes_of(with_map(scene, true)), Flux::reflected),
+              plain = flux(fluxes_of(simulation_of(folder, scene), {}, 2), Flux::reflected);
+  EXPECT_NEAR(even.value, plain.value, 4 * std::hypot(even.error, plain.error) + 1e-3);
+}
+
+// A disc of a sun as wide as a lampshade: what arrives is its irradiance, and what it lights is the mean of
+// directions in it.
+TEST(Fluxes, DiscsOfSunsAreTheMeanOfTheirDirections) {
+  const TemporaryFolder folder;
+  SceneText scene = canopy(folder);
+  scene.sun = sun_at(50, 30);
+  scene.sampling = "samples = 131072";
+  Simulation simulation = simulation_of(folder, scene);
+  simulation.light.suns[0].radius = radians(10);
+  const FluxResult disc = fluxes_of(simulation);
+  const Value direct = flux(disc, Flux::transmitted_direct);
+  // Directions evenly over the disc, each with its cosine.
+  constexpr int rings = 8, steps = 12;
+  double sum = 0, weight = 0, error = 0;
+  const Eigen::Vector3d centre = simulation.light.suns[0].direction;
+  const Eigen::Vector3d side = centre.unitOrthogonal(), other = centre.cross(side);
+  for (int ring = 0; ring < rings; ++ring) {
+    const double z = 1 - (ring + 0.5) / rings * (1 - std::cos(radians(10))), r = std::sqrt(1 - z * z);
+    for (int step = 0; step < steps; ++step) {
+      const double angle = 2 * pi * (step + 0.5 * (ring % 2)) / steps;
+      Simulation one = simulation_of(folder, scene);
+      one.sampling.samples = 4096;
+      one.light.suns[0].direction = z * centre + r * (std::cos(angle) * side + std::sin(angle) * other);
+      const Value value = flux(fluxes_of(one, {}, static_cast<std::uint64_t>(2 + ring * steps + step)),
+                               Flux::transmitted_direct);
+      const double cosine = one.light.suns[0].direction.z();
+      sum += cosine * value.value, weight += cosine, error += cosine * cosine * value.error * value.error;
+    }
+  }
+  EXPECT_LT(std::abs(direct.value - sum / weight), 4.5 * std::hypot(direct.error, std::sqrt(error) / weight))
+      << direct.value << " and " << sum / weight;
+  EXPECT_NEAR(flux(disc, Flux::reflected).value + flux(disc, Flux::absorbed_canopy).value +
+                  0.8 * flux(disc, Flux::transmitted).value,
+              1.0, 0.02);
+}
+
+// Half of the leaves' reflectance as a lobe of the same law: the same fluxes, and energy still closes.
+TEST(Fluxes, LobesScatterAsTheyShould) {
+  const TemporaryFolder folder;
+  SceneText scene = canopy(folder);
+  scene.sun = sun_at(40, 20);
+  scene.sampling = "samples = 262144";
+  const FluxResult plain = fluxes_of(simulation_of(folder, scene));
+  Simulation simulation = simulation_of(folder, scene);
+  for (Material& material : simulation.materials) {
+    if (material.name != "leaf") continue;
+    material.reflectance = {{{0.25}, {0.25}}};
+    material.lobes.push_back({std::make_shared<LambertLobe>(), {0.25}, {true, true}});
+  }
+  const FluxResult lobes = fluxes_of(simulation, {.layers = 4}, 2);
+  for (const Flux which :
+       {Flux::reflected, Flux::transmitted, Flux::absorbed_canopy, Flux::absorbed_ground}) {
+    const Value a = flux(plain, which), b = flux(lobes, which);
+    EXPECT_LT(std::abs(a.value - b.value), 4.5 * std::hypot(a.error, b.error)) << name_of(which);
+    EXPECT_LT(b.error, 0.02 * b.value);
+  }
+  EXPECT_NEAR(sum_of(lobes, Flux::absorbed_layer), flux(lobes, Flux::absorbed_canopy).value, 1e-9);
 }
 
 TEST(Fluxes, BandsBeyondALaneGroupAreAsByThemselves) {

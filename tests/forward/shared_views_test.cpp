@@ -102,6 +102,34 @@ TEST(SharedViews, AreTheReverseModesOverInstances) {
   expect_the_reverse_mode(simulation_of(folder, scene));
 }
 
+// Two suns, each with parts of its own.
+TEST(SharedViews, AreTheReverseModesUnderTwoSuns) {
+  const TemporaryFolder folder;
+  SceneText scene = lit_canopy(folder);
+  scene.sun = "[" + sun_at(40, 100) + ", " + sun_at(65, 300, "2.0") + "]";
+  scene.sensor = views("[[0, 0], [60, 10]]");
+  scene.sampling = "samples = 65536";
+  const Simulation simulation = simulation_of(folder, scene);
+  expect_the_reverse_mode(simulation);
+  const SharedViews forward = shared_of(simulation, 3);
+  const SensorResult reverse = simulate(simulation, 4).sensors.at(0);
+  std::size_t of_one_sun = 0;
+  for (std::size_t p = 0; p < forward.result.parts.size(); ++p) {
+    const Part& part = forward.result.parts[p];
+    if (part.sun == every_sun || part.order != every_order || part.component != Component::all) continue;
+    ++of_one_sun;
+    for (std::size_t q = 0; q < reverse.parts.size(); ++q) {
+      const Part& other = reverse.parts[q];
+      if (other.sun != part.sun || other.order != every_order || other.component != Component::all) continue;
+      for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_LT(std::abs(z_of(forward.result.radiance[p], i, reverse.radiance[q], i)), 4.5) << part.sun;
+    }
+  }
+  EXPECT_EQ(of_one_sun, 2u);
+  for (std::size_t i = 0; i < 4; ++i)  // views x suns
+    EXPECT_LT(std::abs(z_of(forward.result.sunlit_ground, i, reverse.sunlit_ground, i)), 4.5);
+}
+
 TEST(SharedViews, BareGroundIsAsItIs) {
   const TemporaryFolder folder;
   SceneText scene;
