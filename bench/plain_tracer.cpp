@@ -29,15 +29,25 @@ class PlainScene {
     device_ = rtcNewDevice(nullptr);
     scene_ = rtcNewScene(device_);
     std::vector<Disc> discs;
-    for (const Disc& disc : scene.prototypes[0].discs) {
-      for (const float x : {-2 * half_, 0.0f, 2 * half_}) {
-        for (const float y : {-2 * half_, 0.0f, 2 * half_}) {
-          Disc copy = disc;
-          copy.centre_m += Vector3f(x, y, 0);
-          const float reach = half_ + 1.01f * disc.radius_m;
-          if (std::abs(copy.centre_m.x()) < reach && std::abs(copy.centre_m.y()) < reach)
-            discs.push_back(copy);
-          top_ = std::max(top_, copy.centre_m.z() + disc.radius_m);
+    for (const Instance& instance : scene.instances) {
+      const auto cosine = static_cast<float>(std::cos(instance.rotation)),
+                 sine = static_cast<float>(std::sin(instance.rotation)),
+                 scale = static_cast<float>(instance.scale);
+      const auto turned = [&](const Vector3f& v) {
+        return Vector3f(cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y(), v.z());
+      };
+      for (const Disc& own : scene.prototypes[instance.prototype].discs) {
+        const Disc disc{instance.position_m.cast<float>() + scale * turned(own.centre_m),
+                        scale * own.radius_m, turned(own.normal)};
+        for (const float x : {-2 * half_, 0.0f, 2 * half_}) {
+          for (const float y : {-2 * half_, 0.0f, 2 * half_}) {
+            Disc copy = disc;
+            copy.centre_m += Vector3f(x, y, 0);
+            const float reach = half_ + 1.01f * disc.radius_m;
+            if (std::abs(copy.centre_m.x()) < reach && std::abs(copy.centre_m.y()) < reach)
+              discs.push_back(copy);
+            top_ = std::max(top_, copy.centre_m.z() + disc.radius_m);
+          }
         }
       }
     }
@@ -112,7 +122,21 @@ class PlainScene {
 
 PlainResult trace_plainly(const Simulation& simulation, double vza_deg, std::uint64_t paths,
                           std::uint64_t seed) {
-  const PlainScene scene(simulation.scene);
+  return PlainTracer(simulation).trace(vza_deg, paths, seed);
+}
+
+struct PlainTracer::Impl {
+  explicit Impl(const Simulation& all) : simulation(all), scene(all.scene) {}
+  const Simulation& simulation;
+  PlainScene scene;
+};
+PlainTracer::PlainTracer(const Simulation& simulation) : impl_(std::make_unique<Impl>(simulation)) {}
+PlainTracer::~PlainTracer() = default;
+
+PlainResult PlainTracer::trace(double vza_deg, std::uint64_t paths, std::uint64_t seed) const {
+  const Simulation& simulation = impl_->simulation;
+  const PlainScene& scene = impl_->scene;
+  const std::size_t bands = std::min<std::size_t>(2, simulation.bands.count()), last = bands - 1;
   const auto& leaf = simulation.materials[0];
   const auto& soil = simulation.materials[1];
   const Domain& domain = simulation.scene.domain;
@@ -126,14 +150,14 @@ PlainResult trace_plainly(const Simulation& simulation, double vza_deg, std::uin
     Vector3f origin((2 * uniform(generator) - 1) * scene.half(), (2 * uniform(generator) - 1) * scene.half(),
                     scene.top());
     Vector3f direction = down;
-    double weight[2] = {1, 1}, value[2] = {0, 0};
+    double weight[2] = {1, bands > 1 ? 1.0 : 0.0}, value[2] = {0, 0};
     for (;;) {
       const Met met = scene.trace(origin, direction);
       if (!met.any) break;
       const Vector3f facing = met.normal.dot(direction) < 0 ? met.normal : Vector3f(-met.normal);
       const float cosine = facing.dot(to_sun);
       if ((met.leaf || cosine > 0) && !scene.trace(met.at, to_sun).any) {
-        for (std::size_t b = 0; b < 2; ++b) {
+        for (std::size_t b = 0; b < bands; ++b) {
           const double factor = !met.leaf    ? soil.reflectance[0][b]
                                 : cosine > 0 ? leaf.reflectance[0][b]
                                              : leaf.transmittance[b];
@@ -142,10 +166,11 @@ PlainResult trace_plainly(const Simulation& simulation, double vza_deg, std::uin
         }
       }
       bool reflect = true;
-      for (std::size_t b = 0; b < 2; ++b)
+      for (std::size_t b = 0; b < bands; ++b)
         weight[b] *= met.leaf ? leaf.reflectance[0][b] + leaf.transmittance[b] : soil.reflectance[0][b];
       if (met.leaf) {  // as the NIR shares it; the red weight makes up for it
-        const double share = leaf.reflectance[0][1] / (leaf.reflectance[0][1] + leaf.transmittance[1]);
+        const double share =
+            leaf.reflectance[0][last] / (leaf.reflectance[0][last] + leaf.transmittance[last]);
         reflect = static_cast<double>(uniform(generator)) < share;
         const double red = reflect ? leaf.reflectance[0][0] / share : leaf.transmittance[0] / (1 - share);
         weight[0] *= red / (leaf.reflectance[0][0] + leaf.transmittance[0]);
@@ -162,12 +187,12 @@ PlainResult trace_plainly(const Simulation& simulation, double vza_deg, std::uin
       direction = (normal + Vector3f(radius * std::cos(angle), radius * std::sin(angle), z)).normalized();
       origin = met.at;
     }
-    for (std::size_t b = 0; b < 2; ++b) sum[b] += value[b], squares[b] += value[b] * value[b];
+    for (std::size_t b = 0; b < bands; ++b) sum[b] += value[b], squares[b] += value[b] * value[b];
   }
   PlainResult out{};
   out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const auto n = static_cast<double>(paths);
-  for (std::size_t b = 0; b < 2; ++b) {
+  for (std::size_t b = 0; b < bands; ++b) {
     out.mean[b] = sum[b] / n;
     out.variance[b] = (squares[b] / n - out.mean[b] * out.mean[b]);
   }

@@ -84,7 +84,8 @@ Intersector::Impl::Impl(const Scene& scene, const IntersectorOptions& options)
   if (!(top >= bottom)) top = bottom = 0;
   if (!periodic && !(high.x() >= low.x())) low = high = Eigen::Vector2d::Zero();
   if (!periodic && size.minCoeff() > 0) low = -0.5 * size, high = 0.5 * size;
-  slack = 1e-5 * std::max({std::abs(top), std::abs(bottom), top - bottom});
+  // Never nothing: a ray brought down to a bare plane at height 0 must not round to below it.
+  slack = 1e-5 * std::max({std::abs(top), std::abs(bottom), top - bottom, 1e-4});
   lift = traced.instanced() ? lift_instanced : lift_flat;
 }
 

@@ -3,17 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 #include "scene/intersect/traced_scene.h"
 
 namespace bpms {
 namespace {
 
-// A disc seen this close to edge-on covers less than that part of its area: nothing.
-constexpr double thinnest = 1e-4;
-constexpr long tile = 8;  // squares across a tile
-constexpr float nowhere = -std::numeric_limits<float>::infinity();
+constexpr float bottomless = -std::numeric_limits<float>::infinity();
+constexpr std::size_t worth_sharing = 500;  // discs of a prototype: fewer are listed one by one
+constexpr int coarse = 64;                  // squares along a side of the grid of what stands where
+
+std::optional<Eigen::Vector2d> period_of(const Domain& domain) {
+  if (!domain.periodic) return std::nullopt;
+  return domain.size_m;
+}
 
 }  // namespace
 
@@ -34,251 +40,230 @@ ParallelRays::ParallelRays(const TracedScene& traced, const Scene& scene, const 
       scene_(&scene),
       towards_(towards),
       shear_(towards.head<2>() / towards.z()),
-      wrap_u_(std::numeric_limits<float>::infinity()),
-      wrap_v_(wrap_u_) {
-  if (!scene.domain.periodic) return;
-  wrap_u_ = static_cast<float>(scene.domain.size_m.x());
-  wrap_v_ = static_cast<float>(scene.domain.size_m.y());
-}
+      rest_(towards / towards.z(), period_of(scene.domain)) {}
 
 bool ParallelRays::build(std::uint64_t most_bytes) {
-  std::uint64_t count = 0;
-  for (const Instance& instance : scene_->instances) {
-    first_id_.push_back(static_cast<std::uint32_t>(count));
-    count += scene_->prototypes[instance.prototype].discs.size();
-  }
-  if (count * sizeof(Ellipse) > most_bytes) return false;
-  ellipses_.resize(count);
-  std::vector<Bounds> bounds(count);
-  if (!flatten(bounds)) return false;
-  lay_grid(bounds);
-  for (std::size_t id = 0; id < bounds.size(); ++id) {
-    ellipses_[id].u = static_cast<float>(bounds[id].u - low_.x());
-    ellipses_[id].v = static_cast<float>(bounds[id].v - low_.y());
-  }
-  return list(bounds, most_bytes - count * sizeof(Ellipse));
-}
-
-// The discs as ellipses, but for their centres, which count from the grid's corner.
-bool ParallelRays::flatten(std::vector<Bounds>& bounds) {
-  const Eigen::Vector3d slope(shear_.x(), shear_.y(), 1);
-  for (std::uint32_t i = 0; i < scene_->instances.size(); ++i) {
-    const std::vector<Disc>& discs = traced_->prototype(i).discs;
-    for (std::size_t k = 0; k < discs.size(); ++k) {
-      Ellipse& e = ellipses_[first_id_[i] + k];
-      Bounds& box = bounds[first_id_[i] + k];
-      const Eigen::Vector3d centre = traced_->place(i, discs[k].centre_m.cast<double>());
-      const Eigen::Vector3d normal = traced_->turn(i, discs[k].normal.cast<double>());
-      const double radius = scene_->instances[i].scale * static_cast<double>(discs[k].radius_m);
-      const double along = normal.dot(slope);
-      box.half_u = -1;
-      if (std::abs(along) < thinnest * slope.norm()) continue;
-      box.u = centre.x() - centre.z() * shear_.x();
-      box.v = centre.y() - centre.z() * shear_.y();
-      const double a = -normal.x() / along, b = -normal.y() / along;
-      const Eigen::Vector3d per_u(1 + a * shear_.x(), a * shear_.y(), a);
-      const Eigen::Vector3d per_v(b * shear_.x(), 1 + b * shear_.y(), b);
-      const double r2 = radius * radius;
-      const double q11 = per_u.squaredNorm() / r2, q12 = per_u.dot(per_v) / r2,
-                   q22 = per_v.squaredNorm() / r2;
-      const double determinant = q11 * q22 - q12 * q12;
-      box.half_u = std::sqrt(q22 / determinant);
-      box.half_v = std::sqrt(q11 / determinant);
-      box.top =
-          static_cast<float>(centre.z() + radius * std::sqrt(std::max(0.0, 1 - normal.z() * normal.z())));
-      e.q11 = static_cast<float>(q11), e.q12 = static_cast<float>(2 * q12), e.q22 = static_cast<float>(q22);
-      e.height = static_cast<float>(centre.z()), e.a = static_cast<float>(a), e.b = static_cast<float>(b);
-      if (scene_->domain.periodic &&
-          2 * std::max(box.half_u, box.half_v) > 0.5 * scene_->domain.size_m.minCoeff())
-        return false;
+  const std::vector<Instance>& instances = scene_->instances;
+  const auto alike = [](const Instance& i) {
+    const Eigen::Quaterniond q = i.rotation.quaternion();
+    return std::tuple(i.prototype, q.w(), q.x(), q.y(), q.z(), i.scale);
+  };
+  std::map<decltype(alike(instances.front())), std::uint32_t> uses, groups;
+  for (const Instance& instance : instances) ++uses[alike(instance)];
+  std::uint32_t listed = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> stand_later;
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    first_id_.push_back(listed);
+    const std::size_t discs = traced_->prototype(i).discs.size();
+    if (uses[alike(instances[i])] < 2 || discs < worth_sharing) {
+      add_discs(i, false, rest_);
+      listed += static_cast<std::uint32_t>(discs);
+      continue;
     }
+    const auto next = static_cast<std::uint32_t>(groups_.size());
+    const auto [place, is_new] = groups.try_emplace(alike(instances[i]), next);
+    if (is_new) add_discs(i, true, groups_.emplace_back(towards_ / towards_.z(), std::nullopt));
+    stand_later.emplace_back(i, place->second);
   }
+  if (!rest_.finish(most_bytes)) return false;
+  std::uint64_t bytes = rest_.memory_bytes();
+  for (FlatDiscs& group : groups_) {
+    if (bytes > most_bytes || !group.finish(most_bytes - bytes)) return false;
+    bytes += group.memory_bytes();
+  }
+  for (const auto& pair : stand_later) stand(pair.first, pair.second);
+  list_standing();
   return true;
 }
 
-bool ParallelRays::list(const std::vector<Bounds>& bounds, std::uint64_t most_bytes) {
-  first_entry_.assign(squares() + 1, 0);
-  std::uint64_t count = 0;
-  for (const Bounds& box : bounds) {
-    squares_of(box, [&](std::size_t square) {
-      ++first_entry_[square + 1];
-      ++count;
-    });
-  }
-  if (count * sizeof(Entry) > most_bytes || count > 0xffffffffull) return false;
-  for (std::size_t s = 1; s < first_entry_.size(); ++s) first_entry_[s] += first_entry_[s - 1];
-  // From the highest disc down: so each list is in order.
-  std::vector<std::uint32_t> falling(bounds.size());
-  std::iota(falling.begin(), falling.end(), 0u);
-  std::sort(falling.begin(), falling.end(), [&](std::uint32_t x, std::uint32_t y) {
-    return bounds[x].top != bounds[y].top ? bounds[x].top > bounds[y].top : x < y;
-  });
-  entries_.resize(count);
-  std::vector<std::uint32_t> next(first_entry_.begin(), first_entry_.end() - 1);
-  for (const std::uint32_t id : falling)
-    squares_of(bounds[id], [&](std::size_t square) { entries_[next[square]++] = {bounds[id].top, id}; });
-  return true;
-}
-
-// Squares about as wide as a disc's radius: short lists, few entries a disc.
-void ParallelRays::lay_grid(const std::vector<Bounds>& bounds) {
-  double extent = 0;
-  std::size_t count = 0;
-  Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
-  for (const Bounds& e : bounds) {
-    if (e.half_u < 0) continue;
-    extent += e.half_u + e.half_v;
-    ++count;
-    low = low.cwiseMin(Eigen::Vector2d(e.u - e.half_u, e.v - e.half_v));
-    high = high.cwiseMax(Eigen::Vector2d(e.u + e.half_u, e.v + e.half_v));
-  }
-  if (count == 0) low.setZero(), high.setOnes();
-  const Domain& domain = scene_->domain;
-  if (domain.periodic) low = -0.5 * domain.size_m, high = 0.5 * domain.size_m;
-  const Eigen::Vector2d size = high - low;
-  constexpr double most_squares = 1 << 24;
-  const double side = std::max({count > 0 ? 0.5 * extent / static_cast<double>(count) : size.maxCoeff(),
-                                std::sqrt(size.prod() / most_squares), size.maxCoeff() / most_squares});
-  low_ = low;
-  columns_ = std::max(1L, static_cast<long>(size.x() / side));
-  rows_ = std::max(1L, static_cast<long>(size.y() / side));
-  tiles_across_ = (columns_ + tile - 1) / tile;
-  squares_m_ = {size.x() / static_cast<double>(columns_), size.y() / static_cast<double>(rows_)};
-}
-
-std::size_t ParallelRays::number_of(long column, long row) const {
-  const long in_tile = row % tile * tile + column % tile;
-  return static_cast<std::size_t>((row / tile * tiles_across_ + column / tile) * tile * tile + in_tile);
-}
-
-std::size_t ParallelRays::squares() const {
-  return static_cast<std::size_t>(tiles_across_ * ((rows_ + tile - 1) / tile) * tile * tile);
-}
-
-template <class Visit>
-void ParallelRays::squares_of(const Bounds& e, Visit visit) const {
-  if (e.half_u < 0) return;
-  const auto number = [](double x, double side) { return static_cast<long>(std::floor(x / side)); };
-  const double hair = 1e-6 * squares_m_.maxCoeff();
-  const long c0 = number(e.u - e.half_u - hair - low_.x(), squares_m_.x()),
-             c1 = number(e.u + e.half_u + hair - low_.x(), squares_m_.x());
-  const long r0 = number(e.v - e.half_v - hair - low_.y(), squares_m_.y()),
-             r1 = number(e.v + e.half_v + hair - low_.y(), squares_m_.y());
-  const bool wraps = scene_->domain.periodic;
-  const auto inside = [wraps](long i, long count) { return wraps ? ((i % count) + count) % count : i; };
-  for (long r = r0; r <= r1; ++r) {
-    const long row = inside(r, rows_);
-    if (row < 0 || row >= rows_) continue;
-    for (long c = c0; c <= c1; ++c) {
-      const long column = inside(c, columns_);
-      if (column >= 0 && column < columns_) visit(number_of(column, row));
-    }
+void ParallelRays::add_discs(std::uint32_t i, bool at_origin, FlatDiscs& to) const {
+  for (const Disc& disc : traced_->prototype(i).discs) {
+    Eigen::Vector3d centre = traced_->place(i, disc.centre_m.cast<double>());
+    if (at_origin) centre -= scene_->instances[i].position_m;
+    to.add(centre, traced_->turn(i, disc.normal.cast<double>()),
+           scene_->instances[i].scale * static_cast<double>(disc.radius_m));
   }
 }
 
-bool ParallelRays::spot(double u, double v, Spot& out) const {
-  double x = u - low_.x(), y = v - low_.y();
+// With all copies, shifted by whole periods, that reach into the cell.
+void ParallelRays::stand(std::uint32_t i, std::uint32_t g) {
+  const FlatDiscs& group = groups_[g];
+  const Eigen::Vector3d& at = scene_->instances[i].position_m;
+  Standing one;
+  one.z = static_cast<float>(at.z());
+  one.top = one.z + group.top();
+  // A hair wider: these are rounded.
+  const Eigen::Vector2d hair =
+      Eigen::Vector2d::Constant(1e-6 * (group.high().cwiseAbs() + group.low().cwiseAbs()).maxCoeff());
+  one.low = (group.low() - hair).cast<float>(), one.high = (group.high() + hair).cast<float>();
+  one.group = g, one.instance = i;
+  const Eigen::Vector2d origin = at.head<2>() - at.z() * shear_;
+  Eigen::Array2d least = Eigen::Array2d::Zero(), most = least;
+  const Eigen::Array2d size = scene_->domain.size_m.array();
   if (scene_->domain.periodic) {
-    x -= scene_->domain.size_m.x() * std::floor(x / scene_->domain.size_m.x());
-    y -= scene_->domain.size_m.y() * std::floor(y / scene_->domain.size_m.y());
+    least = ((-0.5 * size - (origin + group.high() + hair).array()) / size).ceil();
+    most = ((0.5 * size - (origin + group.low() - hair).array()) / size).floor();
   }
-  auto column = static_cast<long>(std::floor(x / squares_m_.x())),
-       row = static_cast<long>(std::floor(y / squares_m_.y()));
-  if (scene_->domain.periodic)
-    column = std::clamp(column, 0L, columns_ - 1), row = std::clamp(row, 0L, rows_ - 1);
-  if (column < 0 || column >= columns_ || row < 0 || row >= rows_) return false;
-  out.square = number_of(column, row);
-  out.u = static_cast<float>(x);
-  out.v = static_cast<float>(y);
-  return true;
+  for (double y = least.y(); y <= most.y(); ++y) {
+    for (double x = least.x(); x <= most.x(); ++x) {
+      one.u = origin.x() + (x == 0 ? 0 : x * size.x()), one.v = origin.y() + (y == 0 ? 0 : y * size.y());
+      standing_.push_back(one);
+    }
+  }
 }
 
-// `nowhere` outside the ellipse.
-float ParallelRays::height_at(const Ellipse& e, float u, float v) const {
-  float du = u - e.u, dv = v - e.v;
-  if (std::abs(du) > 0.5f * wrap_u_) du -= std::copysign(wrap_u_, du);
-  if (std::abs(dv) > 0.5f * wrap_v_) dv -= std::copysign(wrap_v_, dv);
-  const float inside = e.q11 * du * du + e.q12 * du * dv + e.q22 * dv * dv;
-  return inside <= 1.0f ? e.height + e.a * du + e.b * dv : nowhere;
+void ParallelRays::list_standing() {
+  std::stable_sort(standing_.begin(), standing_.end(),
+                   [](const Standing& a, const Standing& b) { return a.top > b.top; });
+  Eigen::Vector2d high;
+  if (scene_->domain.periodic) {
+    low_ = -0.5 * scene_->domain.size_m, high = -low_;
+  } else {
+    low_.setConstant(1e300), high.setConstant(-1e300);
+    for (const Standing& s : standing_) {
+      low_ = low_.cwiseMin(Eigen::Vector2d(s.u, s.v) + s.low.cast<double>());
+      high = high.cwiseMax(Eigen::Vector2d(s.u, s.v) + s.high.cast<double>());
+    }
+  }
+  if (standing_.empty()) return;
+  squares_per_m_ = coarse * (high - low_).cwiseInverse();
+  const auto visit = [&](const Standing& s, auto each) {
+    const auto number = [&](double x, int axis) {
+      return std::clamp(static_cast<int>(std::floor((x - low_[axis]) * squares_per_m_[axis])), 0, coarse - 1);
+    };
+    const int c1 = number(s.u + static_cast<double>(s.high.x()), 0),
+              r1 = number(s.v + static_cast<double>(s.high.y()), 1);
+    for (int r = number(s.v + static_cast<double>(s.low.y()), 1); r <= r1; ++r)
+      for (int c = number(s.u + static_cast<double>(s.low.x()), 0); c <= c1; ++c)
+        each(static_cast<std::size_t>(r * coarse + c));
+  };
+  first_standing_.assign(coarse * coarse + 1, 0);
+  for (const Standing& s : standing_) visit(s, [&](std::size_t square) { ++first_standing_[square + 1]; });
+  for (std::size_t k = 1; k < first_standing_.size(); ++k) first_standing_[k] += first_standing_[k - 1];
+  listed_.resize(first_standing_.back());
+  std::vector<std::uint32_t> next(first_standing_.begin(), first_standing_.end() - 1);
+  for (std::uint32_t k = 0; k < standing_.size(); ++k)
+    visit(standing_[k], [&](std::size_t square) { listed_[next[square]++] = k; });
+}
+
+Eigen::Vector2d ParallelRays::flat(const Eigen::Vector3f& point) const {
+  const Eigen::Vector3d p = point.cast<double>();
+  return p.head<2>() - p.z() * shear_;
+}
+
+// What stands over the ray and reaches above that height, until visit(...) says true; highest first.
+template <class Visit>
+void ParallelRays::visit_standing(Eigen::Vector2d at, float above, Visit visit) const {
+  if (standing_.empty()) return;
+  if (scene_->domain.periodic) {
+    const Eigen::Vector2d& size = scene_->domain.size_m;
+    for (int axis = 0; axis < 2; ++axis)
+      at[axis] -= size[axis] * whole_below((at[axis] + 0.5 * size[axis]) / size[axis]);
+  }
+  const auto column = static_cast<long>(whole_below((at.x() - low_.x()) * squares_per_m_.x())),
+             row = static_cast<long>(whole_below((at.y() - low_.y()) * squares_per_m_.y()));
+  if (!scene_->domain.periodic && (column < 0 || column > coarse || row < 0 || row > coarse)) return;
+  const auto square = static_cast<std::size_t>(std::clamp(row, 0L, coarse - 1L) * coarse +
+                                               std::clamp(column, 0L, coarse - 1L));
+  for (std::uint32_t k = first_standing_[square]; k < first_standing_[square + 1]; ++k) {
+    const Standing& s = standing_[listed_[k]];
+    if (s.top <= above) return;
+    const double u = at.x() - s.u, v = at.y() - s.v;
+    const auto x = static_cast<float>(u), y = static_cast<float>(v);
+    if (x < s.low.x() || x > s.high.x() || y < s.low.y() || y > s.high.y()) continue;
+    if (visit(s, u, v)) return;
+  }
 }
 
 bool ParallelRays::occluded(const Eigen::Vector3f& point, const SurfaceId& from) const {
-  const Eigen::Vector3d p = point.cast<double>();
-  if (scene_->ground && p.z() < scene_->ground->height_m && from.geometry != TracedScene::ground) return true;
-  Spot at{};
-  if (!spot(p.x() - p.z() * shear_.x(), p.y() - p.z() * shear_.y(), at)) return false;
-  const std::uint32_t skip =
-      from.geometry == TracedScene::discs ? first_id_[from.instance] + from.primitive : 0xffffffffu;
-  for (std::uint32_t k = first_entry_[at.square]; k < first_entry_[at.square + 1]; ++k) {
-    const Entry& entry = entries_[k];
-    if (entry.top <= point.z()) return false;
-    if (height_at(ellipses_[entry.id], at.u, at.v) > point.z() && entry.id != skip) return true;
-  }
-  return false;
+  if (scene_->ground && static_cast<double>(point.z()) < scene_->ground->height_m &&
+      from.geometry != TracedScene::ground)
+    return true;
+  const Eigen::Vector2d at = flat(point);
+  const bool on_disc = from.geometry == TracedScene::discs;
+  if (!rest_.empty() &&
+      rest_.any_above(at.x(), at.y(), point.z(),
+                      on_disc ? first_id_[from.instance] + from.primitive : FlatDiscs::none))
+    return true;
+  bool met = false;
+  visit_standing(at, point.z(), [&](const Standing& s, double u, double v) {
+    const std::uint32_t skip = on_disc && from.instance == s.instance ? from.primitive : FlatDiscs::none;
+    met = groups_[s.group].any_above(u, v, point.z() - s.z, skip);
+    return met;
+  });
+  return met;
 }
 
 bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
-  const Eigen::Vector3d p = point.cast<double>();
-  const double u = p.x() - p.z() * shear_.x(), v = p.y() - p.z() * shear_.y();
-  const float floor = scene_->ground ? static_cast<float>(scene_->ground->height_m) : nowhere;
-  float height = floor;
-  std::uint32_t id = 0xffffffffu;
-  Spot at{};
-  if (spot(u, v, at)) {
-    for (std::uint32_t k = first_entry_[at.square]; k < first_entry_[at.square + 1]; ++k) {
-      const Entry& entry = entries_[k];
-      if (entry.top <= height) break;
-      const float found = height_at(ellipses_[entry.id], at.u, at.v);
-      if (found > height) height = found, id = entry.id;
+  const Eigen::Vector2d at = flat(point);
+  float height = scene_->ground ? static_cast<float>(scene_->ground->height_m) : bottomless;
+  std::uint32_t instance = FlatDiscs::none, primitive = FlatDiscs::none;
+  if (!rest_.empty()) {
+    const std::uint32_t id = rest_.highest(at.x(), at.y(), height);
+    if (id != FlatDiscs::none) {
+      const auto after = std::upper_bound(first_id_.begin(), first_id_.end(), id);
+      instance = static_cast<std::uint32_t>(after - first_id_.begin() - 1);
+      primitive = id - first_id_[instance];
     }
   }
-  if (height == nowhere) return false;
+  visit_standing(at, height, [&](const Standing& s, double u, double v) {
+    if (s.top <= height) return true;
+    float own = height - s.z;
+    const std::uint32_t id = groups_[s.group].highest(u, v, own);
+    if (id != FlatDiscs::none) height = own + s.z, instance = s.instance, primitive = id;
+    return false;
+  });
+  if (height == bottomless) return false;
   const auto z = static_cast<double>(height);
-  Eigen::Vector3d position(u + z * shear_.x(), v + z * shear_.y(), z);
+  Eigen::Vector3d position;
+  position << at + z * shear_, z;
   if (scene_->domain.periodic)
     for (int axis = 0; axis < 2; ++axis) {
       const double size = scene_->domain.size_m[axis];
       position[axis] -= size * std::floor((position[axis] + 0.5 * size) / size);
     }
+  hit.position = position.cast<float>();
+  hit.distance = static_cast<float>((static_cast<double>(point.z()) - z) / towards_.z());
+  describe(instance, primitive, hit);
+  return true;
+}
+
+// Of the ground where there is no instance.
+void ParallelRays::describe(std::uint32_t instance, std::uint32_t primitive, Hit& hit) const {
   hit.front = true;
-  hit.ground = false;
+  hit.ground = instance == FlatDiscs::none;
   hit.organ = 0xffffffffu;
   hit.uv.setZero();
   hit.dp_du.setZero();
   hit.dp_dv.setZero();
-  hit.position = position.cast<float>();
-  hit.distance = static_cast<float>((p.z() - z) / towards_.z());
-  if (id == 0xffffffffu) {
-    hit.ground = true;
+  if (hit.ground) {
     hit.material = scene_->ground->material;
     hit.geometric_normal = hit.shading_normal = Eigen::Vector3f::UnitZ();
     hit.id = {0, TracedScene::ground, 0};
     hit.extent = 0;
-    return true;
+    return;
   }
-  const auto instance = static_cast<std::uint32_t>(std::upper_bound(first_id_.begin(), first_id_.end(), id) -
-                                                   first_id_.begin() - 1);
-  hit.id = {instance, TracedScene::discs, id - first_id_[instance]};
+  hit.id = {instance, TracedScene::discs, primitive};
   const Prototype& prototype = traced_->prototype(instance);
-  const Eigen::Vector3d normal =
-      traced_->turn(instance, prototype.discs[hit.id.primitive].normal.cast<double>());
+  const Eigen::Vector3d normal = traced_->turn(instance, prototype.discs[primitive].normal.cast<double>());
   hit.geometric_normal = hit.shading_normal = normal.cast<float>();
   hit.extent = static_cast<float>(traced_->extent(hit.id));
   hit.front = normal.dot(towards_) > 0;
-  hit.material = prototype.material_of_disc.empty() ? prototype.disc_material
-                                                    : prototype.material_of_disc[hit.id.primitive];
-  return true;
+  hit.material =
+      prototype.material_of_disc.empty() ? prototype.disc_material : prototype.material_of_disc[primitive];
 }
 
 void ParallelRays::prefetch(const Eigen::Vector3f& point) const {
-  const Eigen::Vector3d p = point.cast<double>();
-  Spot at{};
-  if (!spot(p.x() - p.z() * shear_.x(), p.y() - p.z() * shear_.y(), at)) return;
-  __builtin_prefetch(&entries_[first_entry_[at.square]]);
+  if (rest_.empty()) return;
+  const Eigen::Vector2d at = flat(point);
+  rest_.prefetch(at.x(), at.y());
 }
 
 std::uint64_t ParallelRays::memory_bytes() const {
-  return entries_.size() * sizeof(Entry) + first_entry_.size() * 4 + ellipses_.size() * sizeof(Ellipse);
+  std::uint64_t out = rest_.memory_bytes() + standing_.size() * sizeof(Standing) +
+                      4 * (listed_.size() + first_standing_.size());
+  for (const FlatDiscs& group : groups_) out += group.memory_bytes();
+  return out;
 }
 
 }  // namespace bpms

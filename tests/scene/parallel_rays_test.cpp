@@ -11,7 +11,8 @@
 namespace bpms {
 namespace {
 
-Scene random_scene(bool periodic) {
+// Three crowns; turned and scaled alike, they are flattened once.
+Scene random_scene(bool periodic, bool alike) {
   Philox random(3, 1);
   Scene scene;
   scene.domain.periodic = periodic;
@@ -29,16 +30,16 @@ Scene random_scene(bool periodic) {
   for (int i = 0; i < 3; ++i) {
     Instance instance;
     instance.position_m = {0.9 * i - 1, 0.5 * i - 0.3, 0.2 * i};
-    instance.rotation = 0.7 * i;
-    instance.scale = 1 + 0.2 * i;
+    instance.rotation = alike ? 0.7 : 0.7 * i;
+    instance.scale = alike ? 1.2 : 1 + 0.2 * i;
     scene.instances.push_back(instance);
   }
   scene.ground = Ground{0.0, 1};
   return scene;
 }
 
-void expect_the_same(bool periodic, double zenith) {
-  const Scene scene = random_scene(periodic);
+void expect_the_same(bool periodic, bool alike, double zenith) {
+  const Scene scene = random_scene(periodic, alike);
   const Intersector intersector(scene);
   const Eigen::Vector3d towards = direction_from_angles(zenith, 1.1, scene.domain);
   const auto rays = intersector.parallel_rays(scene, towards);
@@ -82,12 +83,15 @@ void expect_the_same(bool periodic, double zenith) {
 }
 
 TEST(ParallelRays, AgreeWithTheHierarchyInAPeriodicCell) {
-  expect_the_same(true, 0);
-  expect_the_same(true, radians(50));
+  for (const bool alike : {false, true}) {
+    expect_the_same(true, alike, 0);
+    expect_the_same(true, alike, radians(50));
+    expect_the_same(true, alike, radians(75));  // shadows fall several periods away
+  }
 }
 
 TEST(ParallelRays, AgreeWithTheHierarchyInAnOpenScene) {
-  expect_the_same(false, radians(30));
+  for (const bool alike : {false, true}) expect_the_same(false, alike, radians(30));
 }
 
 }  // namespace

@@ -1,0 +1,126 @@
+#include "simulate/forward/photon_wave.h"
+
+#include <array>
+#include <cmath>
+
+#include "simulate/transport/basis.h"
+
+namespace bpms {
+namespace {
+
+// The low ten bits of a cell's number, two apart.
+std::uint32_t spread_ten(float x) {
+  auto bits = static_cast<std::uint32_t>(std::clamp(x, 0.0f, 1023.0f));
+  bits = (bits | bits << 16) & 0x030000ffu;
+  bits = (bits | bits << 8) & 0x0300f00fu;
+  bits = (bits | bits << 4) & 0x030c30c3u;
+  return (bits | bits << 2) & 0x09249249u;
+}
+
+}  // namespace
+
+PhotonStage::PhotonStage(const Simulation& all, const Intersector& rays)
+    : simulation(&all),
+      intersector(&rays),
+      optics(all),
+      extent(extent_of(rays)),
+      sources(photon_sources(all, extent)) {}
+
+void scatter_diffuse(Photon& photon, const PhotonOptics& optics, const InteractionNumbers& random,
+                     float chosen, float* weight) {
+  const float share = optics.surface(photon.material).reflect_share[photon.front ? 0 : 1];
+  const bool reflect = random.side < static_cast<double>(share);
+  multiply_weights(weight,
+                   optics.factor(reflect ? reflectance_factor(photon.material, photon.front)
+                                         : transmittance_factor(photon.material)),
+                   1.0f / ((reflect ? share : 1.0f - share) * chosen), optics.width);
+  const Eigen::Vector3f outward = photon.front == reflect ? photon.normal : Eigen::Vector3f(-photon.normal);
+  photon.direction = cosine_direction(outward, random.direction_u, random.direction_v);
+}
+
+bool scatter_lobes(Photon& photon, const PhotonOptics& optics, InteractionNumbers random, float* weight) {
+  const SurfaceOptics& surface = optics.surface(photon.material);
+  const std::size_t face = photon.front ? 0 : 1;
+  // The number that chose the way is stretched to choose again.
+  const auto diffuse = static_cast<double>(surface.diffuse_share[face]);
+  if (random.side < diffuse) {
+    random.side /= diffuse;
+    scatter_diffuse(photon, optics, random, surface.diffuse_share[face], weight);
+    return true;
+  }
+  double left = random.side - diffuse;
+  std::size_t k = 0;
+  while (k + 1 < surface.lobes.size() && left >= static_cast<double>(surface.lobe_share[k][face]))
+    left -= static_cast<double>(surface.lobe_share[k++][face]);
+  const float chosen = surface.lobe_share[k][face];
+  const LobeOptics& lobe = surface.lobes[k];
+  if (!(chosen > 0)) return false;
+  const Basis frame(photon.front ? photon.normal : Eigen::Vector3f(-photon.normal));
+  const Eigen::Vector3f from = frame.to_local(-photon.direction);
+  Eigen::Vector3f to;
+  if (from.z() <= 0 || !lobe.lobe->sample(from, static_cast<float>(random.direction_u),
+                                          static_cast<float>(random.direction_v), to))
+    return false;
+  float scale = 1 / chosen;
+  if (!lobe.lobe->is_delta()) {
+    const float density = lobe.lobe->pdf(from, to);
+    if (!(density > 0)) return false;
+    scale *= std::abs(to.z()) / density;
+    if (lobe.factor != no_factor) scale *= lobe.lobe->shape(from, to);
+  }
+  if (lobe.factor != no_factor) {
+    multiply_weights(weight, optics.factor(lobe.factor), scale, optics.width);
+  } else {
+    std::vector<float> values(optics.width, 0.0f);
+    lobe.lobe->values(from, to, {values.data(), optics.bands});
+    multiply_weights(weight, values.data(), scale, optics.width);
+  }
+  if (!lobe.lobe->is_straight()) photon.direction = frame.to_world(to).normalized();
+  return true;
+}
+
+std::uint32_t place_on_curve(const Eigen::Vector3f& point, const Extent& extent) {
+  const Eigen::Vector2d size = extent.high_m - extent.low_m;
+  const auto scale =
+      static_cast<float>(1023.0 / std::max({size.x(), size.y(), extent.top_m - extent.bottom_m, 1e-6}));
+  return spread_ten((point.x() - static_cast<float>(extent.low_m.x())) * scale) |
+         spread_ten((point.y() - static_cast<float>(extent.low_m.y())) * scale) << 1 |
+         spread_ten((point.z() - static_cast<float>(extent.bottom_m)) * scale) << 2;
+}
+
+void sort_places(std::vector<std::uint64_t>& places, std::vector<std::uint64_t>& spare) {
+  constexpr std::size_t digits = 10, worth_counting = 4096;
+  if (places.size() < worth_counting) {
+    std::sort(places.begin(), places.end());
+    return;
+  }
+  spare.resize(places.size());
+  for (std::size_t shift = 32; shift < 32 + 3 * digits; shift += digits) {
+    std::array<std::uint32_t, (1u << digits) + 1> start{};
+    const auto digit = [shift](std::uint64_t item) { return (item >> shift) & ((1u << digits) - 1); };
+    for (const std::uint64_t item : places) ++start[digit(item) + 1];
+    for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
+    places.swap(spare);
+    for (const std::uint64_t item : spare) places[start[digit(item)]++] = item;
+  }
+}
+
+bool within(const Eigen::Vector3f& point, const Extent& extent) {
+  const Eigen::Array2d at = point.head<2>().cast<double>().array();
+  const double hair = 1e-6 * (extent.low_m.cwiseAbs().maxCoeff() + extent.high_m.cwiseAbs().maxCoeff());
+  return (at >= extent.low_m.array() - hair).all() && (at <= extent.high_m.array() + hair).all();
+}
+
+Exit exit_of(const Photon& photon, Escape escape, const Extent& extent, bool periodic) {
+  if (escape == Escape::wrap_limit) return Exit::wraps;
+  const Exit straight = escape == Escape::top ? Exit::top : Exit::bottom;
+  if (periodic) return straight;
+  const double dz = static_cast<double>(photon.direction.z());
+  const double height = straight == Exit::top ? extent.top_m : extent.bottom_m;
+  const double length = (height - static_cast<double>(photon.position.z())) / dz;
+  if (!std::isfinite(length)) return Exit::side;
+  const Eigen::Vector3f at = photon.position + static_cast<float>(std::max(0.0, length)) * photon.direction;
+  return within(at, extent) ? straight : Exit::side;
+}
+
+}  // namespace bpms
