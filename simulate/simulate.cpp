@@ -1,9 +1,11 @@
 #include "simulate/simulate.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/interrupt.h"
 #include "core/parallel.h"
+#include "simulate/output/sun_gap.h"
 #include "simulate/transport/schedule.h"
 
 namespace bpms {
@@ -42,6 +44,9 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
   Result out;
   out.seed = seed;
   out.threads = threads();
+  if (std::any_of(simulation.sensors.begin(), simulation.sensors.end(),
+                  [](const auto& sensor) { return sensor->type == "brf"; }))
+    out.sun_gap = sun_gap(simulation.light, intersector, seed);
   Progress progress("paths", 0);
   bool out_of_time = false, out_of_samples = false;
   for (std::size_t s = 0; s < simulation.sensors.size(); ++s) {

@@ -94,6 +94,9 @@ struct SensorResult {
   // lit on the face that is not seen.
   Estimates sunlit, shaded, lit_behind;
   Estimates sunlit_ground;  // views x suns: the bidirectional gap probability
+  // Views x bands, where there are suns and a sky: of the direct and the diffuse radiance, which come from
+  // the same paths.
+  std::vector<double> direct_diffuse_covariance;
   std::vector<double>
       truncation;  // views x bands: what max_order leaves out, estimated; empty without max_order
   std::vector<std::uint64_t> samples;            // per view; 0 when an interrupt came before
@@ -104,6 +107,10 @@ struct SensorResult {
 
 struct Result {
   std::vector<SensorResult> sensors;
+  Estimates sun_gap;  // gap probability towards each sun; empty without a `brf` sensor
+  // Of the irradiance, per written band: asks for the reflectance under it, recombined from direct and
+  // diffuse; empty: not asked for.
+  std::vector<double> diffuse_fraction;
   std::uint64_t samples = 0;
   std::uint64_t rays = 0;
   double seconds = 0;

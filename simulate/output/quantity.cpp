@@ -16,6 +16,10 @@ Quantity reflectance_quantity(const Light& light, const Sensor& sensor) {
   return {"brf", "bidirectional reflectance factor", "1"};
 }
 
+std::string recombined_name(const Light& light, const Sensor& sensor) {
+  return std::string(reflectance_quantity(light, sensor).name) + "_recombined";
+}
+
 Quantity light_quantity(const Sensor& sensor) {
   if (sensor.measures() == Measures::irradiance)
     return {"irradiance", "spectral irradiance of the sensor", "W m-2 um-1"};

@@ -19,6 +19,8 @@ struct Quantity {
   const char* units;
 };
 Quantity reflectance_quantity(const Light& light, const Sensor& sensor);
+// Its name with "_recombined", at a diffuse fraction that was asked for.
+std::string recombined_name(const Light& light, const Sensor& sensor);
 // "radiance" or "irradiance", and what the mean radiance of a view is multiplied by.
 Quantity light_quantity(const Sensor& sensor);
 double light_scale(const Sensor& sensor);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/csv.h"
+#include "simulate/output/derived.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
 #include "simulate/recolour/recolour.h"
@@ -88,19 +89,55 @@ void add_fractions(const Simulation& simulation, const SensorResult& result, std
   }
 }
 
+// What derived.h defines, where it is defined.
+struct DerivedQuantities {
+  DerivedQuantities(const Simulation& simulation, const Result& result, std::size_t sensor)
+      : overlap(overlap_function(simulation, result, sensor)),
+        g(effective_g(simulation, result, sensor)),
+        gamma(effective_gamma(simulation, result, sensor)) {
+    if (!result.diffuse_fraction.empty())
+      recombined = recombined_reflectance(simulation, result.sensors[sensor], result.diffuse_fraction);
+  }
+  Estimates overlap, g, gamma, recombined;
+};
+
+void add_derived(const Simulation& simulation, const SensorResult& result, const DerivedQuantities& derived,
+                 std::size_t view, Rows& rows) {
+  const std::size_t suns = simulation.light.suns.size(), bands = simulation.bands.written();
+  const auto add = [&](const char* quantity, const Sun* sun, const Estimates& of, std::size_t index,
+                       int band) {
+    if (index < of.value.size() && std::isfinite(of.value[index]))
+      rows.add(quantity, view, band, sun, "", "", -1, -1, of.value[index], of.standard_error[index]);
+  };
+  add("effective_g", sun_of(simulation.light), derived.g, view, -1);
+  for (std::size_t s = 0; s < suns; ++s) {
+    const Sun* sun = &simulation.light.suns[s];
+    add("overlap", sun, derived.overlap, view * suns + s, -1);
+    for (std::size_t band = 0; band < bands; ++band)
+      add("effective_gamma", sun, derived.gamma, (view * suns + s) * bands + band, static_cast<int>(band));
+  }
+  const std::string name = recombined_name(simulation.light, *result.sensor);
+  for (std::size_t band = 0; band < bands; ++band)
+    add(name.c_str(), sun_of(simulation.light), derived.recombined, view * bands + band,
+        static_cast<int>(band));
+}
+
 }  // namespace
 
 std::string result_csv(const Simulation& simulation, const Result& result) {
   std::string out =
       "quantity,sensor,band,wavelength_nm,sza_deg,saa_deg,vza_deg,vaa_deg,origin,component,order,material,"
       "value,standard_error\n";
-  for (const SensorResult& sensor : result.sensors) {
+  for (std::size_t i = 0; i < result.sensors.size(); ++i) {
+    const SensorResult& sensor = result.sensors[i];
     if (sensor.sensor->is_image()) continue;  // pixels are in the NetCDF
+    const DerivedQuantities derived(simulation, result, i);
     Rows rows(simulation, *sensor.sensor);
     for (std::size_t view = 0; view < sensor.samples.size(); ++view) {
       if (sensor.samples[view] == 0) continue;
       add_parts(simulation, sensor, view, rows);
       add_fractions(simulation, sensor, view, rows);
+      add_derived(simulation, sensor, derived, view, rows);
     }
     out += rows.text;
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "simulate/output/derived.h"
 #include "simulate/output/netcdf.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
@@ -14,15 +15,17 @@ namespace {
 // Writes the variables of one sensor.
 class SensorVariables {
  public:
-  SensorVariables(const Simulation& simulation, const SensorResult& result, NetcdfWriter& file,
-                  std::string prefix, const NetcdfOptions& options)
+  SensorVariables(const Simulation& simulation, const Result& whole, std::size_t sensor_number,
+                  NetcdfWriter& file, std::string prefix, const NetcdfOptions& options)
       : simulation_(simulation),
-        result_(result),
+        whole_(whole),
+        number_(sensor_number),
+        result_(whole.sensors[sensor_number]),
         file_(file),
         prefix_(std::move(prefix)),
         bands_(simulation.bands.written()),
-        by_origin_(!result.sensor->is_image() || options.image_origins) {
-    const Sensor& sensor = *result.sensor;
+        by_origin_(!result_.sensor->is_image() || options.image_origins) {
+    const Sensor& sensor = *result_.sensor;
     if (sensor.is_image()) {
       views_ = {prefix_ + "y", prefix_ + "x"};
       file_.dimension(views_[0], static_cast<std::size_t>(sensor.height()));
@@ -42,6 +45,7 @@ class SensorVariables {
       write_orders(reflectance);
     }
     write_fractions();
+    if (!result_.sensor->is_image()) write_derived();
     std::vector<long long> samples(result_.samples.begin(), result_.samples.end());
     file_.integers(prefix_ + "samples", views_, samples, {{"long_name", "paths traced"}});
     if (!result_.histograms.empty()) write_histograms(result_, file_, prefix_, views_[0]);
@@ -215,7 +219,27 @@ class SensorVariables {
                  "fraction of view that is sunlit on the face that is not seen, by material met first");
   }
 
+  void write_derived() {
+    const auto put_derived = [&](const std::string& name, const Words& dimensions, const Estimates& of,
+                                 const std::string& what) {
+      if (!of.value.empty()) put(name, dimensions, of.value, of.standard_error, what, "1");
+    };
+    const Words by_sun = simulation_.light.suns.size() > 1 ? with(views_, "sun") : views_;
+    put_derived("overlap", by_sun, overlap_function(simulation_, whole_, number_),
+                "overlap function P(s,v) - P(s) P(v)");
+    put_derived("effective_g", views_, effective_g(simulation_, whole_, number_),
+                "effective projection of leaf area towards the sensor, from the gap fraction");
+    put_derived("effective_gamma", with(by_sun, "band"), effective_gamma(simulation_, whole_, number_),
+                "effective area scattering phase function, of a turbid medium with the same gaps");
+    if (!whole_.diffuse_fraction.empty())
+      put_derived(recombined_name(simulation_.light, *result_.sensor), with(views_, "band"),
+                  recombined_reflectance(simulation_, result_, whole_.diffuse_fraction),
+                  std::string(quantity(true).words) + " at the diffuse fraction asked for");
+  }
+
   const Simulation& simulation_;
+  const Result& whole_;
+  std::size_t number_;
   const SensorResult& result_;
   NetcdfWriter& file_;
   std::string prefix_;
@@ -268,19 +292,38 @@ void write_suns(NetcdfWriter& file, const Light& light) {
       {{"units", "degree"}, {"standard_name", "solar_azimuth_angle"}, {"long_name", "sun azimuth angle"}});
 }
 
+// Gaps towards the suns, and the diffuse fraction that was asked for.
+void write_common_derived(NetcdfWriter& file, const Simulation& simulation, const Result& result) {
+  const std::vector<std::string> by_sun =
+      simulation.light.suns.size() > 1 ? std::vector<std::string>{"sun"} : std::vector<std::string>{};
+  const auto put = [&](const std::string& name, const Estimates& of, const std::string& what) {
+    if (of.value.empty()) return;
+    file.variable(name, by_sun, of.value,
+                  {{"units", "1"}, {"long_name", what}, {"ancillary_variables", name + "_se"}});
+    file.variable(name + "_se", by_sun, of.standard_error,
+                  {{"units", "1"}, {"long_name", "standard error of " + what}});
+  };
+  put("sun_gap", result.sun_gap, "gap probability towards the sun");
+  put("sun_effective_g", effective_g_of_suns(simulation, result),
+      "effective projection of leaf area towards the sun, from the gap probability");
+  if (!result.diffuse_fraction.empty())
+    file.variable("diffuse_fraction", {"band"}, result.diffuse_fraction,
+                  {{"units", "1"}, {"long_name", "diffuse fraction of the irradiance that was asked for"}});
+}
+
 }  // namespace
 
 std::string sensor_identifier(const Simulation& simulation, std::size_t sensor) {
-  const auto plain = [&](std::size_t of) {
-    std::string name = simulation.sensors[of]->name;
+  std::set<std::string> taken;
+  for (std::size_t i = 0;; ++i) {
+    std::string name = simulation.sensors[i]->name;
     for (char& c : name)
       if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-    return name;
-  };
-  std::string out = plain(sensor);
-  for (std::size_t before = 0; before < sensor; ++before)
-    if (plain(before) == plain(sensor)) return out + "_" + std::to_string(sensor + 1);
-  return out;
+    const std::string plain = name;
+    for (std::size_t number = i + 1; !taken.insert(name).second; ++number)
+      name = plain + "_" + std::to_string(number);
+    if (i == sensor) return name;
+  }
 }
 
 void write_netcdf(const Simulation& simulation, const Result& result, const Provenance& provenance,
@@ -315,12 +358,13 @@ void write_netcdf(const Simulation& simulation, const Result& result, const Prov
     file.dimension("material", materials.size());
     file.words("material", "material", materials, {{"long_name", "material"}});
   }
+  write_common_derived(file, simulation, result);
   if (std::any_of(result.sensors.begin(), result.sensors.end(),
                   [](const SensorResult& sensor) { return !sensor.histograms.empty(); }))
     write_recording(simulation, file);
   for (std::size_t i = 0; i < result.sensors.size(); ++i) {
     const std::string prefix = simulation.sensors.size() == 1 ? "" : sensor_identifier(simulation, i) + "_";
-    SensorVariables(simulation, result.sensors[i], file, prefix, options).write();
+    SensorVariables(simulation, result, i, file, prefix, options).write();
   }
   file.commit();
 }

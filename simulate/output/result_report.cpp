@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/base64.h"
+#include "core/units.h"
+#include "simulate/output/derived.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
+#include "simulate/sensors/spherical.h"
 
 namespace bpms {
 namespace {
@@ -80,6 +84,89 @@ void add_series(const Simulation& simulation, const SensorResult& result, Json& 
   }
 }
 
+Json numbers_of(const std::vector<double>& values) {
+  Json out = Json::array();
+  for (const double value : values) out.push_back(json_number(value));
+  return out;
+}
+
+Json sun_rows(const Simulation& simulation, const Result& result) {
+  const Estimates g = effective_g_of_suns(simulation, result);
+  Json out = Json::array();
+  for (std::size_t s = 0; s < simulation.light.suns.size(); ++s) {
+    const Sun& sun = simulation.light.suns[s];
+    Json row{{"name", sun.name}, {"sza_deg", sun.zenith_deg}, {"saa_deg", sun.azimuth_deg}};
+    const auto put = [&](const std::string& name, const Estimates& of) {
+      if (s >= of.value.size()) return;
+      row[name] = json_number(of.value[s]);
+      row[name + "_standard_error"] = json_number(of.standard_error[s]);
+    };
+    put("gap", result.sun_gap);
+    put("effective_g", g);
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+void add_derived_series(const Simulation& simulation, const Result& whole, std::size_t sensor, Json& out) {
+  const SensorResult& result = whole.sensors[sensor];
+  const std::size_t bands = simulation.bands.written(), suns = simulation.light.suns.size();
+  const auto add = [&](const std::string& quantity, const Sun* sun, const Estimates& of, std::size_t stride,
+                       std::size_t offset, int band) {
+    if (of.value.empty()) return;
+    const bool by_band = band >= 0;
+    const auto at = static_cast<std::size_t>(std::max(0, band));
+    out.push_back(series_of(sun, result, quantity, by_band ? Json(at + 1) : Json(nullptr),
+                            by_band ? wavelength(simulation.bands, at) : Json(nullptr), nullptr, nullptr,
+                            curve_over_views(result, of, stride, offset, 1)));
+  };
+  const Estimates overlap = overlap_function(simulation, whole, sensor),
+                  gamma = effective_gamma(simulation, whole, sensor);
+  add("effective_g", sun_of(simulation.light), effective_g(simulation, whole, sensor), 1, 0, -1);
+  for (std::size_t s = 0; s < suns; ++s) {
+    const Sun* sun = &simulation.light.suns[s];
+    add("bidirectional_gap", sun, result.sunlit_ground, suns, s, -1);
+    add("overlap", sun, overlap, suns, s, -1);
+    for (std::size_t b = 0; b < bands && bands <= split_bands; ++b)
+      add("effective_gamma", sun, gamma, suns * bands, s * bands + b, static_cast<int>(b));
+  }
+  if (whole.diffuse_fraction.empty() || bands > split_bands) return;
+  const Estimates recombined = recombined_reflectance(simulation, result, whole.diffuse_fraction);
+  for (std::size_t b = 0; b < bands; ++b)
+    add(recombined_name(simulation.light, *result.sensor), sun_of(simulation.light), recombined, bands, b,
+        static_cast<int>(b));
+}
+
+// Of a hemispherical image: circles of equal angle to its axis, with radii in those of the image.
+Json rings_of(const Sensor& sensor) {
+  Json out = Json::array();
+  const auto* round = dynamic_cast<const SphericalSensor*>(&sensor);
+  for (const double angle_deg : {30.0, 60.0}) {
+    if (round == nullptr) break;
+    const double radius = round->projection == Projection::equal_angle
+                              ? angle_deg / 90
+                              : std::numbers::sqrt2 * std::sin(angle_deg * pi / 360);
+    out.push_back({{"angle_deg", angle_deg}, {"radius", radius}});
+  }
+  return out;
+}
+
+void add_orders(const Simulation& simulation, const SensorResult& result, Json& out) {
+  const std::vector<OrderDecay> decays = order_decay(simulation, result);
+  for (std::size_t band = 0; band < decays.size() && decays.size() <= split_bands; ++band) {
+    const OrderDecay& decay = decays[band];
+    out.push_back({{"sensor", result.sensor->name},
+                   {"quantity", reflectance_quantity(simulation.light, *result.sensor).name},
+                   {"band", band + 1},
+                   {"wavelength_nm", wavelength(simulation.bands, band)},
+                   {"value", numbers_of(decay.value)},
+                   {"standard_error", numbers_of(decay.standard_error)},
+                   {"ratio", numbers_of(decay.ratio)},
+                   {"ratio_standard_error", numbers_of(decay.ratio_standard_error)},
+                   {"enough_order", decay.enough_order ? Json(*decay.enough_order) : Json(nullptr)}});
+  }
+}
+
 void add_spectra(const Simulation& simulation, const SensorResult& result, Json& out) {
   const std::size_t bands = simulation.bands.written();
   if (bands <= split_bands) return;
@@ -139,8 +226,10 @@ Json sensor_summary(const Simulation& simulation, const SensorResult& result) {
 }  // namespace
 
 Json result_report(const Simulation& simulation, const Result& result) {
-  Json sensors = Json::array(), series = Json::array(), spectra = Json::array(), images = Json::array();
-  for (const SensorResult& sensor : result.sensors) {
+  Json sensors = Json::array(), series = Json::array(), spectra = Json::array(), images = Json::array(),
+       orders = Json::array();
+  for (std::size_t i = 0; i < result.sensors.size(); ++i) {
+    const SensorResult& sensor = result.sensors[i];
     sensors.push_back(sensor_summary(simulation, sensor));
     if (sensor.sensor->is_image()) {
       const RgbImage image = quick_look(simulation, sensor);
@@ -149,16 +238,23 @@ Json result_report(const Simulation& simulation, const Result& result) {
                                         std::to_string(image.height)},
                         {"width", image.width},
                         {"height", image.height},
+                        {"rings", rings_of(*sensor.sensor)},
                         {"data_uri", "data:image/png;base64," + base64(encode_png(image))}});
     } else {
       add_series(simulation, sensor, series);
+      add_derived_series(simulation, result, i, series);
+      add_orders(simulation, sensor, orders);
       add_spectra(simulation, sensor, spectra);
     }
   }
+  Json names = Json::array();  // empty without response functions
+  for (std::size_t band = 0; band < simulation.bands.written() && !simulation.bands.responses.empty(); ++band)
+    names.push_back(simulation.bands.written_name(band));
   return {{"sensors", sensors},  {"samples", result.samples}, {"seconds", result.seconds},
           {"rays", result.rays}, {"threads", result.threads}, {"stopped_by", result.stopped_by},
           {"seed", result.seed}, {"version", version()},      {"series", series},
-          {"spectra", spectra},  {"images", images}};
+          {"spectra", spectra},  {"images", images},          {"suns", sun_rows(simulation, result)},
+          {"orders", orders},    {"band_names", names}};
 }
 
 }  // namespace bpms

@@ -158,6 +158,8 @@ Result recolour(const Recording& recording, const Simulation& with, Derivatives*
     result.parts = parts_of(with.light, rows.orders);
     result.radiance.assign(result.parts.size(), {});
     for (Estimates& part : result.radiance) part.resize(recorded.samples.size() * bands);
+    if (!with.light.suns.empty() && with.light.sky)
+      result.direct_diffuse_covariance.assign(recorded.samples.size() * bands, 0.0);
     Estimates slopes;
     const std::size_t factors = derivatives != nullptr ? derivatives->factors.size() : 0;
     slopes.resize(recorded.samples.size() * bands * factors);

@@ -132,6 +132,29 @@ void write_fractions(const std::vector<const ViewCounts*>& counts, std::size_t v
   for (const ViewCounts* count : counts) result.samples[view] += count->paths;
 }
 
+namespace {
+
+void write_covariance(const std::vector<BatchMeans>& means, const Sources& sources, std::size_t view,
+                      SensorResult& result) {
+  const std::size_t bands = sources.simulation->bands.written();
+  std::vector<double> direct(bands), diffuse(bands), mean_direct(bands), mean_diffuse(bands), products(bands);
+  for (std::size_t batch = 0; batch < means.size(); ++batch) {
+    part_of_batch({Origin::direct}, means[batch], sources, direct);
+    part_of_batch({Origin::diffuse}, means[batch], sources, diffuse);
+    for (std::size_t band = 0; band < bands; ++band) {
+      const double off = direct[band] - mean_direct[band], n = static_cast<double>(batch + 1);
+      mean_direct[band] += off / n;
+      mean_diffuse[band] += (diffuse[band] - mean_diffuse[band]) / n;
+      products[band] += off * (diffuse[band] - mean_diffuse[band]);
+    }
+  }
+  const double n = static_cast<double>(means.size());
+  for (std::size_t band = 0; band < bands; ++band)
+    result.direct_diffuse_covariance[view * bands + band] = products[band] / (n * (n - 1));
+}
+
+}  // namespace
+
 void write_light(const std::vector<BatchMeans>& means, const Sources& sources, std::size_t view,
                  SensorResult& result) {
   const std::size_t bands = sources.simulation->bands.written();
@@ -147,6 +170,7 @@ void write_light(const std::vector<BatchMeans>& means, const Sources& sources, s
       result.radiance[p].standard_error[view * bands + band] = moments.standard_error(band, means.size());
     }
   }
+  if (!result.direct_diffuse_covariance.empty()) write_covariance(means, sources, view, result);
 }
 
 void write_truncation(const Sampling& sampling, std::size_t bands, SensorResult& result) {

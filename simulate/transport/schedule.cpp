@@ -329,6 +329,7 @@ SensorResult run_sensor(Run& run, const Sensor& sensor) {
     fractions->resize(views * by_material);
   out.sunlit_ground.resize(views * suns);
   out.samples.assign(views, 0);
+  if (suns > 0 && simulation.light.sky) out.direct_diffuse_covariance.assign(views * bands, 0.0);
   if (simulation.sampling.keep_interactions && optics.carriage == Carriage::counted && !sensor.is_image())
     out.histograms.resize(views);
   const Sources sources(simulation);

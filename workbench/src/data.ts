@@ -1,18 +1,11 @@
 // The report document and the reports in it. Units are in the names (_m, _deg, _px, _nm); l is the normalised arc length.
 // Adding a report kind: its reader here, its section in sections/, one line in sections/index.ts.
 
+import { common, type Provenance } from "./data_common";
 import { flag, isObject, list, number, numbers, object, optional, raw, record, rows, text, type Infer } from "./schema";
 
-const provenance = object({
-  version: text,
-  command: text,
-  seed: text,
-  inputs: rows(object({ path: text, sha256: text })),
-});
-export type Provenance = Infer<typeof provenance>;
-
-// What any report may carry.
-const common = { report: text, warnings: list(text), provenance: optional(provenance) };
+export * from "./data_simulate";
+export type { Provenance } from "./data_common";
 
 // The labels that name a measured organ.
 const label = { plant: text, axis: text, rank: text, organ: text };
@@ -160,49 +153,6 @@ export const describe = object({
   profile: raw,
 });
 export type Describe = Infer<typeof describe>;
-
-const angles = { sza_deg: number, vza_deg: numbers, vaa_deg: numbers, value: numbers, standard_error: numbers };
-const series = object({
-  ...angles,
-  sensor: text,
-  quantity: text,
-  band: text,
-  wavelength_nm: number,
-  origin: text,
-  component: text,
-  order: number,
-  material: text,
-  saa_deg: number,
-});
-export type Series = Infer<typeof series>;
-
-const spectrum = object({
-  sensor: text,
-  quantity: text,
-  vza_deg: number,
-  vaa_deg: number,
-  sza_deg: number,
-  wavelength_nm: numbers,
-  value: numbers,
-  standard_error: numbers,
-});
-export type Spectrum = Infer<typeof spectrum>;
-
-export const simulate = object({
-  ...common,
-  sensors: list(raw),
-  samples: number,
-  seconds: number,
-  rays: number,
-  threads: number,
-  stopped_by: text,
-  seed: text,
-  version: text,
-  series: rows(series),
-  spectra: rows(spectrum),
-  images: rows(object({ sensor: text, caption: text, width: number, height: number, data_uri: text })),
-});
-export type Simulate = Infer<typeof simulate>;
 
 const anyReport = object(common);
 

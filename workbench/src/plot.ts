@@ -9,6 +9,10 @@ export interface Trace {
   type: "scatter" | "bar" | "heatmap";
   x?: readonly Value[];
   y?: readonly Value[];
+  z?: readonly (readonly (number | null)[])[]; // of a heatmap
+  colorscale?: string;
+  colorbar?: Record<string, unknown>;
+  zsmooth?: "best" | "fast" | false;
   name?: string;
   mode?: "lines" | "markers" | "lines+markers" | "text";
   text?: string | readonly string[];

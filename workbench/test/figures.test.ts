@@ -5,6 +5,8 @@ import { bandLine, errorLine } from "../src/figures/errorbars";
 import { histogram } from "../src/figures/histogram";
 import { inPlane } from "../src/figures/organ_functions";
 import { panelGrid } from "../src/figures/panels";
+import { interpolate, isHemisphere, polarPoints } from "../src/figures/polar";
+import { decaySpec } from "../src/figures/scattering_orders";
 import { quiver, quiverScale, vectors } from "../src/figures/quiver";
 import { planes, signedZenith } from "../src/figures/view_angles";
 import { organs } from "../src/organs";
@@ -116,4 +118,34 @@ test("a leaf has its colour whether or not a bud was digitised before it", () =>
   const bud = { plant: "1", axis: "1", rank: "0", organ: "bud" };
   expect(organs([bud, leaf]).colour(leaf)).toBe(organs([leaf]).colour(leaf));
   expect(organs([bud, leaf]).colour(bud)).not.toBe(organs([bud, leaf]).colour(leaf));
+});
+
+const hemisphere: Series = {
+  sensor: "h", quantity: "brf", band: "1", wavelength_nm: null, origin: "total", component: "all", order: null, material: null, sza_deg: 30, saa_deg: 100,
+  vza_deg: [0, 30, 30, 30, 30, 60, 60, 60, 60, 60], vaa_deg: [0, 100, 190, 280, 10, 100, 190, 280, 10, 145],
+  value: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10], standard_error: [],
+}; // prettier-ignore
+
+test("views over the hemisphere lie where their azimuth from the sun says", () => {
+  const points = polarPoints(hemisphere);
+  expect(points[1]?.x).toBeCloseTo(0, 10); // the sun's azimuth: at the top
+  expect(points[1]?.y).toBeCloseTo(30, 10);
+  expect(points[2]?.x).toBeCloseTo(30, 10);
+  expect(isHemisphere(hemisphere)).toBe(true);
+  expect(isHemisphere({ ...hemisphere, vaa_deg: hemisphere.vza_deg.map(() => 100) })).toBe(false);
+});
+
+test("the map goes through its views and stays within them", () => {
+  const points = polarPoints(hemisphere);
+  for (const p of points) expect(interpolate(points, p.x, p.y)).toBeCloseTo(p.value, 9);
+  const between = interpolate(points, 11, 17) ?? Number.NaN;
+  expect(between).toBeGreaterThan(1);
+  expect(between).toBeLessThan(10);
+});
+
+test("ratios of orders that are not known are left out", () => {
+  const row = { sensor: "s", quantity: "brf", band: "1", wavelength_nm: null, value: [0.2, 0.1, 0.05], standard_error: [0.001, 0.001, 0.001], ratio: [0.5, 0.5], ratio_standard_error: [0.01, 0.3], enough_order: 2 };
+  const [, ratios] = decaySpec(row).data;
+  expect(ratios?.x).toEqual([2, 3]);
+  expect(ratios?.y).toEqual([0.5, null]);
 });

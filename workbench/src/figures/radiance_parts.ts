@@ -7,9 +7,10 @@ import { alpha, colour, ink, materialColour, orderColour } from "../palette";
 import { axisTitle, type PlotSpec, type Trace } from "../plot";
 import { errorLine } from "./errorbars";
 import { anglePanels, byBand, isWhole, quantityName, type BandGroup } from "./reflectance";
+import { isHemisphere } from "./polar";
 import { mainPlane } from "./view_angles";
 
-const radiometric = (x: Series): boolean => /^(brf|hdrf|radiance)$/.test(x.quantity ?? "brf") && x.vza_deg.length > 0;
+const radiometric = (x: Series): boolean => /^(brf|hdrf|radiance)$/.test(x.quantity ?? "brf") && x.vza_deg.length > 0 && !isHemisphere(x);
 
 const componentNames: Record<string, string> = {
   all: "all",
@@ -113,7 +114,7 @@ export function orders(r: Simulate, s: Section): void {
 }
 
 export function fractions(r: Simulate, s: Section): void {
-  const chosen = r.series.filter((x) => /^fraction_(sunlit|shaded)$/.test(x.quantity ?? "") && x.vza_deg.length > 1 && isWhole(x));
+  const chosen = r.series.filter((x) => /^fraction_(sunlit|shaded)$/.test(x.quantity ?? "") && x.vza_deg.length > 1 && isWhole(x) && !isHemisphere(x));
   const sensor = chosen[0]?.sensor ?? null;
   // Fractions do not depend on the band: one band is enough.
   const band = byBand(chosen.filter((x) => x.sensor === sensor))[0];

@@ -7,6 +7,7 @@ import { bandColour, colour } from "../palette";
 import { mark, type Trace } from "../plot";
 import { errorLine } from "./errorbars";
 import { panelGrid, type Panel } from "./panels";
+import { isHemisphere } from "./polar";
 import { bandName, planes, type Plane } from "./view_angles";
 
 export const longNames: Record<string, string> = {
@@ -16,6 +17,10 @@ export const longNames: Record<string, string> = {
   gap: "gap fraction",
   dhr: "directional-hemispherical reflectance",
   bhr: "bihemispherical reflectance",
+  hdrf_recombined: "HDRF at another diffuse fraction",
+  albedo_recombined: "albedo at another diffuse fraction",
+  effective_g: "effective G",
+  effective_gamma: "effective Γ",
 };
 
 export const quantityName = (q: string | null): string => longNames[q ?? ""] ?? sentenceCase(q ?? "value");
@@ -82,12 +87,13 @@ export function anglePanels(lines: Lines, columns = 2, barmode?: string): { heig
   };
 }
 
+// Gaps and fractions have figures of their own.
 const wholeQuantities = (r: Simulate): string[] =>
-  [...new Set(r.series.filter((x) => isWhole(x) && x.material === null && !/^fraction/.test(x.quantity ?? "")).map((x) => x.quantity ?? "value"))];
+  [...new Set(r.series.filter((x) => isWhole(x) && x.material === null && !/^(fraction|gap|bidirectional_gap|overlap)/.test(x.quantity ?? "")).map((x) => x.quantity ?? "value"))];
 
 export function reflectance(r: Simulate, s: Section): void {
   for (const quantity of wholeQuantities(r)) {
-    const chosen = r.series.filter((x) => (x.quantity ?? "value") === quantity && isWhole(x) && x.material === null && x.vza_deg.length > 1);
+    const chosen = r.series.filter((x) => (x.quantity ?? "value") === quantity && isWhole(x) && x.material === null && x.vza_deg.length > 1 && !isHemisphere(x));
     const bands = byBand(chosen);
     if (bands.length === 0) continue;
     const sensors = new Set(chosen.map((x) => x.sensor)).size > 1;

@@ -2,9 +2,12 @@
 
 import type { Section } from "../book";
 import { simulate as read, type Simulate } from "../data";
-import { h, imageSource } from "../dom";
+import { gaps } from "../figures/gaps";
+import { images } from "../figures/pictures";
+import { polarMaps } from "../figures/polar";
 import { isWhole, reflectance } from "../figures/reflectance";
 import { fractions, lightParts, orders, scatteringParts } from "../figures/radiance_parts";
+import { orderDecay } from "../figures/scattering_orders";
 import { spectra } from "../figures/spectra";
 import { count, duration, magnitude, missing, plural } from "../format";
 import { defineSection } from "./section";
@@ -16,20 +19,6 @@ const reasons: Record<string, string> = {
   max_seconds: "the time was up",
   interrupt: "it was interrupted",
 };
-
-function images(r: Simulate, s: Section): void {
-  const shown = r.images.filter((i) => imageSource(i.data_uri) !== null);
-  shown.forEach((image, i) => {
-    const small = (image.width ?? 1000) < 400;
-    const picture = h("img", {
-      src: imageSource(image.data_uri),
-      alt: image.caption ?? image.sensor ?? "rendered image",
-      class: small ? "render small" : "render",
-    });
-    const caption = image.caption ?? `Image of the sensor ${image.sensor ?? ""}.`;
-    s.figure(`image-${i + 1}`, h("div", { class: "renderframe" }, picture), caption);
-  });
-}
 
 function runTable(r: Simulate, s: Section): void {
   const rows = [
@@ -76,10 +65,13 @@ export const simulate = defineSection({
   },
   render: (r, s) => {
     reflectance(r, s);
+    polarMaps(r, s);
     scatteringParts(r, s);
     orders(r, s);
+    orderDecay(r, s);
     lightParts(r, s);
     fractions(r, s);
+    gaps(r, s);
     spectra(r, s);
     images(r, s);
     runTable(r, s);
