@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "simulate/forward/choose_mode.h"
 #include "simulate/simulate.h"
 
 namespace bpms {
@@ -17,7 +18,7 @@ Sampling read_sampling(const TomlValue& table) {
   const TomlValue target = table.get("target_se");
   const TomlValue samples = table.get("samples");
   for (const char* other : {"max_samples", "max_seconds", "max_order", "orders", "roulette", "share_paths",
-                            "diffuse_rays", "normals", "shadow"})
+                            "diffuse_rays", "normals", "shadow", "mode"})
     table.get(other);
   if (static_cast<bool>(target) == static_cast<bool>(samples))
     table.reject_choice("expected one of target_se and samples");
@@ -38,8 +39,17 @@ Sampling read_sampling(const TomlValue& table) {
     out.interpolated_normals = normals.one_of({"geometric", "interpolated"}) == "interpolated";
   if (const TomlValue shadow = table.get("shadow"))
     out.attenuate_shadows = shadow.one_of({"block", "attenuate"}) == "attenuate";
-  if (const TomlValue share = table.get("share_paths"))
-    if (share.boolean()) share.reject("sharing paths between views is not built yet: expected false");
+  const TomlValue share = table.get("share_paths"), mode = table.get("mode");
+  if (mode) {
+    out.mode = read_mode(mode);
+    out.mode_where = mode.where();
+  }
+  if (share && share.boolean()) {
+    if (mode && out.mode == Mode::reverse)
+      share.reject("views share paths in forward mode: expected mode = \"auto\"");
+    if (!mode) out.mode = Mode::forward;
+    out.mode_where = share.where();
+  }
   return out;
 }
 
@@ -92,6 +102,14 @@ Simulation parse_simulation(const std::string& path, std::string_view text) {
   const TomlValue sensors = root.require("sensors");
   if (!sensors.is_array() || sensors.size() == 0) sensors.reject("expected at least one [[sensors]]");
   for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const TomlValue type = sensors[i].get("type");
+    if (type && type.is_string() && type.string() == "flux") {
+      const TomlValue name = sensors[i].require("name");
+      for (const FluxSensor& other : out.fluxes)
+        if (other.name == name.string()) name.reject(fmt::format("a second sensor named \"{}\"", other.name));
+      out.fluxes.push_back({name.string(), read_flux_options(sensors[i])});
+      continue;
+    }
     for (auto& sensor : read_sensors(sensors[i], {out.scene, out.light, out.inputs, out.scene.notes})) {
       for (const auto& other : out.sensors)
         if (other->name == sensor->name)

@@ -5,6 +5,9 @@
 
 #include "core/interrupt.h"
 #include "core/parallel.h"
+#include "simulate/forward/choose_mode.h"
+#include "simulate/forward/forward.h"
+#include "simulate/forward/shared_views.h"
 #include "simulate/output/sun_gap.h"
 #include "simulate/transport/schedule.h"
 
@@ -49,20 +52,40 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
     out.sun_gap = sun_gap(simulation.light, intersector, seed);
   Progress progress("paths", 0);
   bool out_of_time = false, out_of_samples = false;
-  for (std::size_t s = 0; s < simulation.sensors.size(); ++s) {
+  const std::size_t sensors = simulation.sensors.size() + simulation.fluxes.size();
+  for (std::size_t s = 0; s < simulation.sensors.size() && !interrupted(); ++s) {
+    const Sensor& sensor = *simulation.sensors[s];
     Run run{&stage, seed, static_cast<std::uint32_t>(s), Clock::time_point::max(), false, false, &progress};
     if (simulation.sampling.max_seconds > 0) {
-      const double share = static_cast<double>(s + 1) / static_cast<double>(simulation.sensors.size());
+      const double share = static_cast<double>(s + 1) / static_cast<double>(sensors);
       run.deadline = start + std::chrono::duration_cast<Clock::duration>(
                                  std::chrono::duration<double>(simulation.sampling.max_seconds * share));
     }
-    out.sensors.push_back(run_sensor(run, *simulation.sensors[s]));
+    const Mode mode =
+        choose_mode(simulation.sampling.mode, simulation, sensor, simulation.sampling.mode_where);
+    if (mode == Mode::forward) {
+      SharedViews shared =
+          trace_shared_views(simulation, intersector, sensor, seed, run.sensor_index, run.deadline);
+      run.out_of_time = shared.stopped_by == "max_seconds";
+      run.out_of_samples = shared.stopped_by == "max_samples";
+      shared.result.covariance = std::move(shared.covariance);
+      out.sensors.push_back(std::move(shared.result));
+    } else {
+      out.sensors.push_back(run_sensor(run, sensor));
+    }
     const SensorResult& last = out.sensors.back();
     out.samples += std::accumulate(last.samples.begin(), last.samples.end(), std::uint64_t{0});
     out.rays += last.rays;
     out_of_time = out_of_time || run.out_of_time;
     out_of_samples = out_of_samples || run.out_of_samples;
+  }
+  for (const FluxSensor& flux : simulation.fluxes) {
     if (interrupted()) break;
+    const FluxResult result = trace_fluxes(simulation, intersector, seed, flux.options);
+    out.samples += result.samples;
+    out.rays += result.rays;
+    out_of_samples = out_of_samples || result.stopped_by == "max_samples";
+    out.fluxes.push_back(std::make_shared<const FluxResult>(result));
   }
   out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   out.stopped_by = simulation.sampling.samples > 0 ? "samples" : "target_se";

@@ -8,11 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "simulate/forward/flux_options.h"
 #include "simulate/light/light.h"
 #include "simulate/materials/material.h"
 #include "simulate/sensors/sensor.h"
 
 namespace bpms {
+
+// From the sensors, from the light, or whichever costs less (forward/choose_mode.h).
+enum class Mode { reverse, forward, automatic };
 
 // When to stop, per view: a standard error of the total in every band, or a number of paths.
 struct Sampling {
@@ -30,6 +34,8 @@ struct Sampling {
   // light twice).
   bool attenuate_shadows = false;
   bool keep_interactions = false;  // for other spectra afterwards
+  Mode mode = Mode::reverse;
+  SourceLocation mode_where{};  // where it was asked for
 };
 // "0.0002" or "0.1%".
 void set_target_se(Sampling& sampling, const std::string& text, const SourceLocation& where);
@@ -40,6 +46,7 @@ struct Simulation {
   std::vector<Material> materials;  // in the order of scene.materials
   Light light;
   std::vector<std::unique_ptr<Sensor>> sensors;
+  std::vector<FluxSensor> fluxes;
   Sampling sampling;
   std::vector<std::string> inputs;
 };
@@ -99,13 +106,16 @@ struct SensorResult {
   std::vector<double> direct_diffuse_covariance;
   std::vector<double>
       truncation;  // views x bands: what max_order leaves out, estimated; empty without max_order
-  std::vector<std::uint64_t> samples;            // per view; 0 when an interrupt came before
+  std::vector<std::uint64_t> samples;  // per view; 0 when an interrupt came before
+  std::vector<double> covariance;      // of the totals where views share paths: bands x views x views
   std::vector<InteractionHistogram> histograms;  // per view, when they were asked for
   std::uint64_t rays = 0;
   std::uint64_t lost = 0;  // paths ended by the wrap limit of a periodic domain
 };
 
+struct FluxResult;  // forward/forward.h
 struct Result {
+  std::vector<std::shared_ptr<const FluxResult>> fluxes;  // of each flux sensor
   std::vector<SensorResult> sensors;
   Estimates sun_gap;  // gap probability towards each sun; empty without a `brf` sensor
   // Of the irradiance, per written band: asks for the reflectance under it, recombined from direct and

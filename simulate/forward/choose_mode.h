@@ -13,7 +13,6 @@
 
 namespace bpms {
 
-enum class Mode { reverse, forward, automatic };
 Mode read_mode(const TomlValue& value);  // "reverse", "forward", "auto"
 
 inline constexpr std::size_t views_worth_sharing_grids = 4;

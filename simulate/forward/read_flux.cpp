@@ -1,4 +1,4 @@
-#include "simulate/forward/forward.h"
+#include "simulate/forward/flux_options.h"
 
 namespace bpms {
 

@@ -4,6 +4,7 @@
 
 #include "core/csv.h"
 #include "simulate/output/derived.h"
+#include "simulate/output/flux_output.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
 #include "simulate/recolour/recolour.h"
@@ -141,6 +142,8 @@ std::string result_csv(const Simulation& simulation, const Result& result) {
     }
     out += rows.text;
   }
+  for (std::size_t f = 0; f < result.fluxes.size(); ++f)
+    out += flux_csv_rows(simulation, simulation.fluxes[f], *result.fluxes[f]);
   return out;
 }
 

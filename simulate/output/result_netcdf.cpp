@@ -4,6 +4,7 @@
 #include <set>
 
 #include "simulate/output/derived.h"
+#include "simulate/output/flux_output.h"
 #include "simulate/output/netcdf.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
@@ -48,6 +49,7 @@ class SensorVariables {
     if (!result_.sensor->is_image()) write_derived();
     std::vector<long long> samples(result_.samples.begin(), result_.samples.end());
     file_.integers(prefix_ + "samples", views_, samples, {{"long_name", "paths traced"}});
+    write_covariance();
     if (!result_.histograms.empty()) write_histograms(result_, file_, prefix_, views_[0]);
     if (!result_.truncation.empty())
       file_.variable(
@@ -192,6 +194,15 @@ class SensorVariables {
         {{"long_name", "scattering order (interactions with matter); the last holds all higher ones"},
          {"units", "1"}});
     return parts;
+  }
+
+  // Of the totals as radiance, where views share paths.
+  void write_covariance() {
+    if (result_.covariance.empty()) return;
+    const std::string other = views_[0] + "_other";
+    file_.dimension(other, result_.sensor->views());
+    file_.variable(prefix_ + "covariance", {"band", views_[0], other}, result_.covariance,
+                   {{"long_name", "covariance of the radiance of views, which share paths"}});
   }
 
   void write_fractions() {
@@ -365,6 +376,13 @@ void write_netcdf(const Simulation& simulation, const Result& result, const Prov
   for (std::size_t i = 0; i < result.sensors.size(); ++i) {
     const std::string prefix = simulation.sensors.size() == 1 ? "" : sensor_identifier(simulation, i) + "_";
     SensorVariables(simulation, result, i, file, prefix, options).write();
+  }
+  for (std::size_t f = 0; f < result.fluxes.size(); ++f) {
+    std::string prefix = simulation.fluxes[f].name + "_";
+    for (char& c : prefix)
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    if (simulation.sensors.empty() && result.fluxes.size() == 1) prefix.clear();
+    write_fluxes(simulation, *result.fluxes[f], file, prefix);
   }
   file.commit();
 }

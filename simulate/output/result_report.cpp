@@ -5,6 +5,7 @@
 #include "core/base64.h"
 #include "core/units.h"
 #include "simulate/output/derived.h"
+#include "simulate/output/flux_output.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
 #include "simulate/sensors/spherical.h"
@@ -247,6 +248,9 @@ Json result_report(const Simulation& simulation, const Result& result) {
       add_spectra(simulation, sensor, spectra);
     }
   }
+  Json fluxes = Json::array();
+  for (std::size_t f = 0; f < result.fluxes.size(); ++f)
+    fluxes.push_back(flux_report(simulation, simulation.fluxes[f], *result.fluxes[f]));
   Json names = Json::array();  // empty without response functions
   for (std::size_t band = 0; band < simulation.bands.written() && !simulation.bands.responses.empty(); ++band)
     names.push_back(simulation.bands.written_name(band));
@@ -254,7 +258,7 @@ Json result_report(const Simulation& simulation, const Result& result) {
           {"rays", result.rays}, {"threads", result.threads}, {"stopped_by", result.stopped_by},
           {"seed", result.seed}, {"version", version()},      {"series", series},
           {"spectra", spectra},  {"images", images},          {"suns", sun_rows(simulation, result)},
-          {"orders", orders},    {"band_names", names}};
+          {"orders", orders},    {"band_names", names},       {"fluxes", fluxes}};
 }
 
 }  // namespace bpms

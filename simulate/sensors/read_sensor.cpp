@@ -25,9 +25,8 @@ SensorList read_sensors(const TomlValue& table, const SensorContext& context) {
   for (const auto& kind : sensor_kinds) known.push_back(kind.first);
   for (const auto& kind : sensor_series) known.push_back(kind.first);
   const TomlValue type = table.require("type");
-  for (const char* later : {"lidar", "flux"})
-    if (type.is_string() && type.string() == later)
-      type.reject(fmt::format("sensors of type \"{}\" are not built yet", later));
+  if (type.is_string() && type.string() == "lidar")
+    type.reject("sensors of type \"lidar\" are not built yet");
   const std::string kind = type.one_of(known);
   SensorList out;
   if (const auto series = sensor_series.find(kind); series != sensor_series.end())

@@ -15,7 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const bpms::Simulation simulation = bpms::parse_simulation(path, text);
     if (simulation.materials.size() != simulation.scene.materials.size()) std::abort();
-    if (simulation.sensors.empty() || (simulation.light.suns.empty() && !simulation.light.sky)) std::abort();
+    if ((simulation.sensors.empty() && simulation.fluxes.empty()) ||
+        (simulation.light.suns.empty() && !simulation.light.sky))
+      std::abort();
   } catch (const bpms::Error& error) {
     const bool absent = error.kind() == bpms::ErrorKind::missing_resource;
     if (error.kind() != bpms::ErrorKind::bad_input && !absent) std::abort();
