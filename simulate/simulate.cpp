@@ -43,6 +43,9 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
                                  std::chrono::duration<double>(simulation.sampling.max_seconds * share));
     }
     out.sensors.push_back(run_sensor(run, *simulation.sensors[s]));
+    // What is no part of an image has no value in any output.
+    for (std::size_t view = 0; view < simulation.sensors[s]->views(); ++view)
+      if (!simulation.sensors[s]->covers(view)) out.sensors.back().samples[view] = 0;
     const SensorResult& last = out.sensors.back();
     out.samples += std::accumulate(last.samples.begin(), last.samples.end(), std::uint64_t{0});
     out.rays += last.rays;

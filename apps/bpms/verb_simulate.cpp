@@ -63,7 +63,8 @@ std::vector<std::string> all_outputs(const Cli& cli, const SimulateArguments& op
 std::vector<double> diffuse_fraction(const std::string& text, Simulation& simulation) {
   if (text.empty()) return {};
   if (simulation.light.suns.empty() || !simulation.light.sky)
-    bad_input({"--diffuse-fraction"}, "direct and diffuse light are recombined: expected a scene with sun and sky");
+    bad_input({"--diffuse-fraction"},
+              "direct and diffuse light are recombined: expected a scene with sun and sky");
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const bool is_number = *end == '\0' && std::isfinite(number);
@@ -74,10 +75,12 @@ std::vector<double> diffuse_fraction(const std::string& text, Simulation& simula
   return simulation.bands.integrate(traced);
 }
 
-void write_envi(const Cli& cli, const std::string& prefix, const Simulation& simulation, const Result& result) {
+void write_envi(const Cli& cli, const std::string& prefix, const Simulation& simulation,
+                const Result& result) {
   for (std::size_t i = 0; i < result.sensors.size(); ++i)
     for (const bool errors : {false, true}) {
-      const EnviCube cube = envi_cube(simulation, result.sensors[i], errors, "bpms " + std::string(version()));
+      const EnviCube cube =
+          envi_cube(simulation, result.sensors[i], errors, "bpms " + std::string(version()));
       const std::string path = envi_path(simulation, i, prefix, errors);
       write_file(path, cube.pixels, cli.common.overwrite);
       write_file(envi_header_path(path), cube.header, cli.common.overwrite);
@@ -99,7 +102,8 @@ void note_enough_order(const Simulation& simulation, const Result& result) {
       enough = std::max(enough, *decay.enough_order);
     }
   if (enough > 0 && simulation.sampling.max_order == 0)
-    note(fmt::format("max_order = {} would be enough: higher orders add less than the standard error", enough));
+    note(fmt::format("max_order = {} would be enough: higher orders add less than the standard error",
+                     enough));
 }
 
 void run(const Cli& cli, const SimulateArguments& options) {
@@ -151,8 +155,9 @@ void add_simulate(Cli& cli) {
       ->excludes("--samples");
   verb->add_option("--envi", options->envi,
                    "image cubes with headers as ENVI reads them: PREFIX_SENSOR.img, or FOLDER/");
-  verb->add_option("--romc", options->romc,
-                   "files of the RAMI On-line Model Checker: EXPERIMENT makes brfpp_bpms-EXPERIMENT.mes and so on");
+  verb->add_option(
+      "--romc", options->romc,
+      "files of the RAMI On-line Model Checker: EXPERIMENT makes brfpp_bpms-EXPERIMENT.mes and so on");
   verb->add_option("--diffuse-fraction", options->diffuse_fraction,
                    "reflectance at this diffuse fraction of the irradiance too: 0.2, or a spectrum's file");
   verb->add_flag("--image-origins", options->image_origins,

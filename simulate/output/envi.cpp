@@ -38,8 +38,7 @@ EnviCube envi_cube(const Simulation& simulation, const SensorResult& result, boo
   const Bands& bands = simulation.bands;
   const std::size_t count = bands.written(), pixels = result.samples.size();
   const bool image = sensor.is_image();
-  const Quantity quantity =
-      image ? light_quantity(sensor) : reflectance_quantity(simulation.light, sensor);
+  const Quantity quantity = image ? light_quantity(sensor) : reflectance_quantity(simulation.light, sensor);
   const std::vector<double> scale =
       image ? std::vector<double>(count, light_scale(sensor)) : reflectance_scale(simulation, Origin::total);
   const Estimates& whole = result.radiance.front();
@@ -63,15 +62,21 @@ EnviCube envi_cube(const Simulation& simulation, const SensorResult& result, boo
       static_cast<int>(envi_no_value));
   if (image) text += "sensor type = Unknown\n";
   const bool named = !bands.responses.empty(), known_nm = std::isfinite(bands.written_nm(0));
-  text += "band names = " + list_of(count, [&](std::size_t b) {
-            if (named) return plain(bands.written_name(b));
-            return known_nm ? fmt::format("{:g} nm", bands.written_nm(b)) : fmt::format("band {}", b + 1);
-          }) + "\n";
+  text +=
+      "band names = " +
+      list_of(count,
+              [&](std::size_t b) {
+                if (named) return plain(bands.written_name(b));
+                return known_nm ? fmt::format("{:g} nm", bands.written_nm(b)) : fmt::format("band {}", b + 1);
+              }) +
+      "\n";
   if (known_nm)
     text += "wavelength units = Nanometers\nwavelength = " +
             list_of(count, [&](std::size_t b) { return fmt::format("{:.9g}", bands.written_nm(b)); }) + "\n";
   if (!image) {
-    const auto angles = [&](auto angle) { return list_of(pixels, [&](std::size_t v) { return fmt::format("{:g}", angle(v)); }); };
+    const auto angles = [&](auto angle) {
+      return list_of(pixels, [&](std::size_t v) { return fmt::format("{:g}", angle(v)); });
+    };
     text += "view zenith deg = " + angles([&](std::size_t v) { return sensor.vza_deg(v); }) + "\n";
     text += "view azimuth deg = " + angles([&](std::size_t v) { return sensor.vaa_deg(v); }) + "\n";
   }

@@ -61,10 +61,9 @@ std::vector<RomcFile> romc_files(const Simulation& simulation, const std::string
     if (plane.empty() || !done.insert(plane).second) continue;
     for (std::size_t band = 0; band < simulation.bands.written(); ++band)
       for (const Component part : {Component::all, Component::uc_sgl, Component::co_sgl, Component::mlt}) {
-        const std::string measurement =
-            part == Component::all ? plane : plane + "_" + name_of(part);
-        const std::string name = measurement + "_bpms-" + path.filename().string() +
-                                 band_suffix(simulation.bands, band) + ".mes";
+        const std::string measurement = part == Component::all ? plane : plane + "_" + name_of(part);
+        const std::string name =
+            measurement + "_bpms-" + path.filename().string() + band_suffix(simulation.bands, band) + ".mes";
         out.push_back({(path.parent_path() / name).string(), s, band, measurement, part});
       }
   }

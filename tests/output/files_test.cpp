@@ -41,8 +41,9 @@ std::string value_of(const std::string& header, const std::string& key) {
 SceneText fisheye() {
   return {.soil = lambertian("[[400, 0.1], [900, 0.3]]"),
           .sun = sun_at(40, 120),
-          .sensor = "name = \"round\"\ntype = \"spherical\"\nlocation = [0, 0, 1]\nlooking = \"out\"\n"
-                    "direction = [0, 0, -1]\nup = [0, 1, 0]\nwidth_px = 6\nheight_px = 6\n",
+          .sensor =
+              "name = \"round\"\ntype = \"spherical\"\nlocation = [0, 0, 1]\nlooking = \"out\"\n"
+              "direction = [0, 0, -1]\nup = [0, 1, 0]\nwidth_px = 6\nheight_px = 6\n",
           .wavelengths_nm = "[650, 850]",
           .sampling = "samples = 32"};
 }
@@ -86,12 +87,14 @@ TEST(Envi, OpensInGdal) {
   const EnviCube cube = envi_cube(simulation, simulate(simulation, 1).sensors[0], false, "test");
   folder.write("cube.img", cube.pixels);
   folder.write("cube.hdr", cube.header);
-  EXPECT_EQ(said_by("/usr/bin/python3 -W ignore -c 'from osgeo import gdal; gdal.UseExceptions(); d = gdal.Open(\"" +
-                    (folder / "cube.img") +
-                    "\"); b = d.GetRasterBand(2); print(d.RasterXSize, d.RasterYSize, d.RasterCount, "
-                    "d.GetDriver().ShortName, b.GetNoDataValue(), round(float(b.ReadAsArray()[3, 3]), 5), "
-                    "b.GetMetadataItem(\"wavelength\"), d.GetMetadata(\"ENVI\")[\"interleave\"])'"),
-            "6 6 2 ENVI -9999.0 0.28 850 bsq\n");
+  EXPECT_EQ(
+      said_by(
+          "/usr/bin/python3 -W ignore -c 'from osgeo import gdal; gdal.UseExceptions(); d = gdal.Open(\"" +
+          (folder / "cube.img") +
+          "\"); b = d.GetRasterBand(2); print(d.RasterXSize, d.RasterYSize, d.RasterCount, "
+          "d.GetDriver().ShortName, b.GetNoDataValue(), round(float(b.ReadAsArray()[3, 3]), 5), "
+          "b.GetMetadataItem(\"wavelength\"), d.GetMetadata(\"ENVI\")[\"interleave\"])'"),
+      "6 6 2 ENVI -9999.0 0.28 850 bsq\n");
 }
 
 TEST(Envi, NamesOfFilesDoNotClash) {
@@ -158,13 +161,17 @@ TEST(Romc, FilesReadBack) {
     const Estimates& brf = result.sensors[0].radiance[0];  // irradiance "brf": radiance is the factor
     EXPECT_NEAR(read[0][view].brf, brf.value[view], half_a_digit);
     EXPECT_NEAR(read[0][view].error, brf.standard_error[view], half_a_digit);
-    EXPECT_NEAR(read[1][view].brf + read[2][view].brf + read[3][view].brf, read[0][view].brf, 4 * half_a_digit);
+    EXPECT_NEAR(read[1][view].brf + read[2][view].brf + read[3][view].brf, read[0][view].brf,
+                4 * half_a_digit);
   }
 }
 
 TEST(Romc, NeedsOneSunAndAPlane) {
   const TemporaryFolder folder;
-  SceneText text{.soil = lambertian("0.2"), .sun = sun_at(20, 0), .sensor = views("[[30, 45]]"), .sampling = "samples = 32"};
+  SceneText text{.soil = lambertian("0.2"),
+                 .sun = sun_at(20, 0),
+                 .sensor = views("[[30, 45]]"),
+                 .sampling = "samples = 32"};
   EXPECT_THROW(romc_files(simulation_of(folder, text), "X"), Error);
   text.sensor = principal_plane("[0, 30]");
   EXPECT_EQ(romc_files(simulation_of(folder, text), "X").size(), 4u);
