@@ -87,8 +87,8 @@ TEST(Derived, EffectiveGammaIsThatOfSphericalLeaves) {
   const double p = result.sensors[0].gap.value[view];
   EXPECT_NEAR(gamma.value[view], expected,
               4 * std::hypot(gamma.standard_error[view], expected * drawing_error(p) / p));
-  // What the test can tell: less than a tenth of the value.
-  EXPECT_LT(std::hypot(gamma.standard_error[view], expected * drawing_error(p) / p), 0.025 * expected);
+  // What the test can tell, most of it the gaps of one drawing (5 % of P): better than a tenth.
+  EXPECT_LT(std::hypot(gamma.standard_error[view], expected * drawing_error(p) / p), 0.1 * expected);
 }
 
 // Standard errors against the spread of 40 runs: its own relative error is 1 / sqrt(2 * 39) = 11 %. The
