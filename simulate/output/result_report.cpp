@@ -144,7 +144,7 @@ Json rings_of(const Sensor& sensor) {
   const auto* round = dynamic_cast<const SphericalSensor*>(&sensor);
   for (const double angle_deg : {30.0, 60.0}) {
     if (round == nullptr) break;
-    const double radius = round->projection == Projection::equal_angle
+    const double radius = round->projection == SphereProjection::equal_angle
                               ? angle_deg / 90
                               : std::numbers::sqrt2 * std::sin(angle_deg * pi / 360);
     out.push_back({{"angle_deg", angle_deg}, {"radius", radius}});

@@ -37,7 +37,9 @@ std::string band_suffix(const Bands& bands, std::size_t band) {
 // Within (-pi, pi].
 double wrapped(double angle) {
   const double turn = std::remainder(angle, 2 * pi);
-  return turn <= -pi + 1e-9 ? pi : turn;
+  constexpr double hair = 1e-9;  // rounding, which would write -0.000000
+  if (std::abs(turn) < hair) return 0;
+  return turn <= -pi + hair ? pi : turn;
 }
 
 std::size_t part_of_file(const SensorResult& result, Component component) {

@@ -72,8 +72,8 @@ TEST(Derived, EffectiveGIsOneHalfForSphericalLeaves) {
 }
 
 // Gamma = (rho + tau) / (3 pi) (sin b - b cos b) + tau / 3 cos b, b between the directions of propagation
-// (Ross 1981). Where sun and view are far apart the discs' hot spot is small: what is left of it is bounded
-// by the joint gap probability of Kuusk (1985) with the disc's radius over the canopy's height.
+// (Ross 1981). At 90 degrees from the sun the hot spot of small discs is below what the
+// test can tell.
 TEST(Derived, EffectiveGammaIsThatOfSphericalLeaves) {
   const TemporaryFolder folder;
   const Simulation simulation = canopy(folder, "262144");
@@ -85,11 +85,10 @@ TEST(Derived, EffectiveGammaIsThatOfSphericalLeaves) {
   const double b = std::acos(-sun.dot(sensor));
   const double expected = 0.9 / (3 * pi) * (std::sin(b) - b * std::cos(b)) + 0.4 / 3 * std::cos(b);
   const double p = result.sensors[0].gap.value[view];
-  // Correlated gaps lengthen single scattering by about radius / height of it.
-  const double hot_spot = small_discs.radius_m / 2.0;
-  EXPECT_NEAR(
-      gamma.value[view], expected,
-      4 * std::hypot(gamma.standard_error[view], expected * drawing_error(p) / p) + expected * hot_spot);
+  EXPECT_NEAR(gamma.value[view], expected,
+              4 * std::hypot(gamma.standard_error[view], expected * drawing_error(p) / p));
+  // What the test can tell, most of it the gaps of one drawing (5 % of P): better than a tenth.
+  EXPECT_LT(std::hypot(gamma.standard_error[view], expected * drawing_error(p) / p), 0.1 * expected);
 }
 
 // Standard errors against the spread of 40 runs: its own relative error is 1 / sqrt(2 * 39) = 11 %. The

@@ -11,19 +11,21 @@ import { bandName } from "./view_angles";
 const most = 20; // orders shown
 
 export function decaySpec(row: OrderRow): PlotSpec {
-  const value = row.value.slice(0, most);
+  // Orders of a millionth of the first and less are left out.
+  const shown = Math.max(3, row.value.filter((v) => v !== null && v > 1e-6 * (row.value[0] ?? 0)).length);
+  const value = row.value.slice(0, Math.min(most, shown));
   const at = value.map((_, i) => i + 1);
   const bars: Trace = {
     type: "bar", x: at, y: value, marker: { color: at.map((_, i) => orderColour(i, at.length)) }, name: quantityName(row.quantity), showlegend: false,
-    error_y: { type: "data", array: row.standard_error.slice(0, most).map((e) => (e === null ? null : z95 * e)), thickness: 1.1, width: 2.5, color: ink },
+    error_y: { type: "data", array: row.standard_error.slice(0, value.length).map((e) => (e === null ? null : z95 * e)), thickness: 1.1, width: 2.5, color: ink },
     hovertemplate: "order %{x}: %{y:.4g}<extra></extra>",
   }; // prettier-ignore
   // A ratio says something where it is known to a fifth of itself.
-  const known = row.ratio.slice(0, most - 1).map((v, i) => (v !== null && (row.ratio_standard_error[i] ?? Infinity) < 0.2 * v ? v : null));
+  const known = row.ratio.slice(0, value.length - 1).map((v, i) => (v !== null && (row.ratio_standard_error[i] ?? Infinity) < 0.2 * v ? v : null));
   const ratios: Trace = {
     type: "scatter", mode: "lines+markers", x: at.slice(1), y: known, yaxis: "y2", name: "ratio to the order before", showlegend: false,
     line: { color: "#d1812a", width: 1.6 }, marker: { color: "#d1812a", size: 6 },
-    error_y: { type: "data", array: row.ratio_standard_error.slice(0, most - 1).map((e, i) => (known[i] === null || e === null ? null : z95 * e)), thickness: 1.1, width: 2.5, color: "#d1812a" },
+    error_y: { type: "data", array: row.ratio_standard_error.slice(0, value.length - 1).map((e, i) => (known[i] === null || e === null ? null : z95 * e)), thickness: 1.1, width: 2.5, color: "#d1812a" },
     hovertemplate: "order %{x} over the one before: %{y:.3f}<extra></extra>",
   }; // prettier-ignore
   const enough = row.enough_order !== null && row.enough_order <= at.length ? row.enough_order : null;
