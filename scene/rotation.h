@@ -31,6 +31,10 @@ class Rotation {
 
  private:
   Eigen::Vector3d turn(const Eigen::Vector3d& v, double way) const {
+    if (upright()) {  // most are
+      const double z = z_, sine = way * 2 * z * w_, cosine = 1 - 2 * z * z;
+      return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y(), v.z()};
+    }
     const Eigen::Vector3d axis(way * x_, way * y_, way * z_);
     const Eigen::Vector3d t = 2 * axis.cross(v);
     return v + w_ * t + axis.cross(t);

@@ -231,7 +231,6 @@ void Intersector::Impl::describe(const Found& found, Hit& hit) const {
   hit.distance = static_cast<float>(way.before + what.distance);
   hit.ground = false;
   hit.organ = 0xffffffffu;
-  hit.extent = static_cast<float>(traced.extent(id));
   Eigen::Vector3d position;
   if (id.geometry == TracedScene::discs) {
     position = describe_disc(found, prototype, hit);
@@ -240,6 +239,7 @@ void Intersector::Impl::describe(const Found& found, Hit& hit) const {
   } else {
     position = describe_shape(found, prototype, hit);
   }
+  if (id.geometry != TracedScene::discs) hit.extent = static_cast<float>(traced.extent(id));
   if (periodic) into_cell(position);
   hit.position = position.cast<float>();
 }
@@ -247,7 +247,9 @@ void Intersector::Impl::describe(const Found& found, Hit& hit) const {
 Eigen::Vector3d Intersector::Impl::describe_disc(const Found& found, const Prototype& prototype,
                                                  Hit& hit) const {
   const auto& [what, way] = found;
-  const auto [point, normal] = traced.plane(what);
+  double extent = 0;
+  const auto [point, normal] = traced.disc(what, hit.id, extent);
+  hit.extent = static_cast<float>(extent);
   hit.front = normal.dot(way.direction) < 0;
   hit.geometric_normal = hit.shading_normal = normal.cast<float>();
   hit.uv.setZero();

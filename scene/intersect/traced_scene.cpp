@@ -232,6 +232,18 @@ Eigen::Vector3d TracedScene::normal(const SurfaceId& id, const Eigen::Vector3d& 
   return turn(id.instance, shape_normal(shape, static_cast<int>(id.primitive % 4), own));
 }
 
+TracedScene::Plane TracedScene::disc(const embree::Found& found, const SurfaceId& id, double& extent) const {
+  const Copy& copy = copy_of(found);
+  if (const Written* written = written_of(copy)) {
+    extent = 2 * written->discs->radius(found.primitive);
+    return {written->discs->centre(found.primitive), written->discs->normal(found.primitive)};
+  }
+  const Instance& instance = instances_[copy.instance];
+  const Disc& own = prototypes_[instance.prototype].discs[id.primitive];
+  extent = 2 * instance.scale * static_cast<double>(own.radius_m);
+  return {to_world(found, own.centre_m.cast<double>()), instance.rotation * own.normal.cast<double>()};
+}
+
 TracedScene::Plane TracedScene::plane(const embree::Found& found) const {
   const Copy& copy = copy_of(found);
   const std::uint32_t kind = kind_of(found);

@@ -35,6 +35,8 @@ class TracedScene {
   };
   SurfaceId id(const embree::Found& found) const;
   Plane plane(const embree::Found& found) const;  // where a disc or triangle was met, in whichever copy
+  // A disc's plane and diameter at once: most of what is met are discs.
+  Plane disc(const embree::Found& found, const SurfaceId& id, double& extent) const;
   // The upper side's, the same for all copies; of a shape, at the point of it near `position`.
   Eigen::Vector3d normal(const SurfaceId& id, const Eigen::Vector3d& position) const;
   double extent(const SurfaceId& id) const;    // no two of its points are further apart along an axis

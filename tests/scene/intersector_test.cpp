@@ -82,7 +82,7 @@ TEST(Intersector, FindsTheSameInFlatAndInstancedScenes) {
   for (int k = 0; k < 60; ++k)
     scene.instances.push_back({static_cast<std::uint32_t>(k % 2),
                                {random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(0, 1)},
-                               random.uniform(0, 2 * pi),
+                               Rotation::about_axes(random.uniform(0, 2 * pi), k % 3 * 0.4, k % 5 * -0.3),
                                random.uniform(0.5, 1.5)});
   scene.ground = Ground{0, 1};
   IntersectorOptions written_out;
@@ -187,9 +187,11 @@ TEST(Intersector, NeverMeetsTheDiscItLeaves) {
     Scene scene = empty_scene(0, false);
     std::vector<Disc> discs = test::scattered_discs(random, 50, 1, 1, 0.3f);
     scene.prototypes = {test::disc_prototype(discs)};
-    scene.instances.push_back({0, {offset, -offset, 0}, 1, 1});
-    expect_no_self_hits(scene, flat, 1);
-    expect_no_self_hits(scene, instanced, 2);
+    for (const Rotation& rotation : {Rotation(1), Rotation::about_axes(1, 2, 3)}) {
+      scene.instances = {{0, {offset, -offset, 0}, rotation, 1}};
+      expect_no_self_hits(scene, flat, 1);
+      expect_no_self_hits(scene, instanced, 2);
+    }
   }
   // Leaves of 1 mm, ten kilometres out.
   Scene scene = empty_scene(0, false);
@@ -208,9 +210,11 @@ TEST(Intersector, NeverMeetsTheTriangleItLeaves) {
   for (const double offset : {0.0, 1e2, 1e4}) {
     Scene scene = empty_scene(0, false);
     scene.prototypes = {test::mesh_prototype(test::bent_strip(64, 4, 0.5f, 0.7f))};
-    scene.instances.push_back({0, {offset, offset, 0}, 0.3, 1});
-    expect_no_self_hits(scene, flat, 4);
-    expect_no_self_hits(scene, instanced, 5);
+    for (const Rotation& rotation : {Rotation(0.3), Rotation::about_axes(0.3, 0.5, -0.4)}) {
+      scene.instances = {{0, {offset, offset, 0}, rotation, 1}};
+      expect_no_self_hits(scene, flat, 4);
+      expect_no_self_hits(scene, instanced, 5);
+    }
   }
 }
 
