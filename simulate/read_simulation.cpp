@@ -92,10 +92,12 @@ Simulation parse_simulation(const std::string& path, std::string_view text) {
   const TomlValue sensors = root.require("sensors");
   if (!sensors.is_array() || sensors.size() == 0) sensors.reject("expected at least one [[sensors]]");
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    out.sensors.push_back(read_sensor(sensors[i], {out.scene, out.light, out.inputs, out.scene.notes}));
-    for (std::size_t k = 0; k < i; ++k)
-      if (out.sensors[k]->name == out.sensors[i]->name)
-        sensors[i].require("name").reject(fmt::format("a second sensor named \"{}\"", out.sensors[i]->name));
+    for (auto& sensor : read_sensors(sensors[i], {out.scene, out.light, out.inputs, out.scene.notes})) {
+      for (const auto& other : out.sensors)
+        if (other->name == sensor->name)
+          sensors[i].require("name").reject(fmt::format("a second sensor named \"{}\"", sensor->name));
+      out.sensors.push_back(std::move(sensor));
+    }
   }
   out.sampling = read_sampling(root.require("sampling"));
   document.finish();

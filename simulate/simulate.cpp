@@ -7,6 +7,19 @@
 #include "simulate/transport/schedule.h"
 
 namespace bpms {
+namespace {
+
+// Refuses a sensor that stands where no light comes.
+void require_free(const Sensor& sensor, const Intersector& intersector, const Extent& extent) {
+  if (sensor.parallel(0)) return;
+  const Eigen::Vector3f place = sensor.start(sensor.views() / 2, {0.5, 0.5}, extent).origin;
+  if (intersector.inside_solid(place))
+    fail(ErrorKind::bad_input, {},
+         "sensor \"{}\" stands at ({:.4g}, {:.4g}, {:.4g}) m, inside a solid or below the ground", sensor.name,
+         place.x(), place.y(), place.z());
+}
+
+}  // namespace
 
 Result simulate(const Simulation& simulation, std::uint64_t seed) {
   const auto start = std::chrono::steady_clock::now();
@@ -25,6 +38,7 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
         ErrorKind::bad_input, {},
         "interactions cannot be counted here: a surface or the sky has another shape in each band, bands are "
         "sampled, or shadows are attenuated");
+  for (const auto& sensor : simulation.sensors) require_free(*sensor, intersector, stage.extent);
   Result out;
   out.seed = seed;
   out.threads = threads();

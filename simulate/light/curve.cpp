@@ -50,15 +50,15 @@ std::size_t column_of(const std::string& column, const std::vector<std::vector<s
 
 }  // namespace
 
-double Curve::at(double where) const {
+double ColumnCurve::at(double where) const {
   const auto above = std::lower_bound(x.begin(), x.end(), where);
   const auto i = static_cast<std::size_t>(above - x.begin());
   if (i == 0) return y.front();
   return y[i - 1] + (where - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
 }
 
-Curve read_curve(const std::string& path, const std::string& column) {
-  Curve out;
+ColumnCurve read_curve(const std::string& path, const std::string& column) {
+  ColumnCurve out;
   out.path = path;
   const std::string text = read_text(path);
   std::vector<std::vector<std::string>> headers;
@@ -103,7 +103,7 @@ Curve read_curve(const std::string& path, const std::string& column) {
   return out;
 }
 
-Curve read_curve(const TomlValue& value, std::vector<std::string>& inputs) {
+ColumnCurve read_curve(const TomlValue& value, std::vector<std::string>& inputs) {
   if (!value.is_table() && !value.is_string())
     value.reject("expected \"file\" or { file = \"...\", column = \"...\" }");
   const TomlValue file = value.is_table() ? value.require("file") : value;
@@ -116,7 +116,7 @@ Curve read_curve(const TomlValue& value, std::vector<std::string>& inputs) {
   return read_curve(inputs.back(), column);
 }
 
-std::vector<double> at_bands(const Curve& curve, const Bands& bands, const TomlValue& value) {
+std::vector<double> at_bands(const ColumnCurve& curve, const Bands& bands, const TomlValue& value) {
   if (bands.wavelengths_nm.empty()) value.reject("a spectrum needs [bands] wavelengths_nm");
   constexpr double longest_um = 100;  // no spectrum of light ends at 100 nm
   if (curve.x.back() <= longest_um)

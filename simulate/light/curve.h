@@ -11,7 +11,7 @@
 
 namespace bpms {
 
-struct Curve {
+struct ColumnCurve {
   std::string path;
   std::vector<double> x, y;
   bool holds(double at) const { return !x.empty() && at >= x.front() && at <= x.back(); }
@@ -19,12 +19,12 @@ struct Curve {
 };
 
 // By a column's name, or its number, counted from 1.
-Curve read_curve(const std::string& path, const std::string& column);
+ColumnCurve read_curve(const std::string& path, const std::string& column);
 // "file", of which the second column counts, or { file = "...", column = "name" | number }.
-Curve read_curve(const TomlValue& value, std::vector<std::string>& inputs);
+ColumnCurve read_curve(const TomlValue& value, std::vector<std::string>& inputs);
 
 // Values at the bands' wavelengths. What says the curve, `value`, is named where it does not reach a band.
-std::vector<double> at_bands(const Curve& curve, const Bands& bands, const TomlValue& value);
+std::vector<double> at_bands(const ColumnCurve& curve, const Bands& bands, const TomlValue& value);
 
 // Irradiance or radiance of a source, per band: what read_spectrum takes ("brf" is the caller's), or
 // { file = "ASTMG173.csv", column = "direct", unit_per = "nm" }: per nm of wavelength (W m-2 nm-1), or

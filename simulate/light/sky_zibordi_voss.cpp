@@ -47,7 +47,7 @@ void read_aerosol(const TomlValue& table, zv::Atmosphere& out, double& scale_hei
 
 // The part of a column above a height, by its density over height (km).
 double above_by_profile(const TomlValue& value, double height_km, std::vector<std::string>& inputs) {
-  const Curve density = read_curve(value, inputs);
+  const ColumnCurve density = read_curve(value, inputs);
   if (!density.holds(height_km))
     value.reject(fmt::format("{} runs from {} to {} km: altitude_km is {}", density.path, density.x.front(),
                              density.x.back(), height_km));

@@ -16,7 +16,7 @@ class AlbedoSensor : public Sensor {
   std::optional<double> height_m;             // of the whole cell; none: above all of the scene
   std::optional<Eigen::Vector3d> location_m;  // of a disc instead
   double radius_m = 0;
-  ImageSize sectors{1, 1};  // azimuths, zeniths
+  PixelGrid sectors{1, 1};  // azimuths, zeniths
   Domain domain;
 
   std::size_t views() const override { return sectors.pixels(); }

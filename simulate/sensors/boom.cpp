@@ -12,7 +12,7 @@ namespace {
 // The camera at the end of the boom, looking at the point.
 struct BoomArm {
   double zenith;  // radians, >= 0
-  Placement camera;
+  SensorPose camera;
 };
 BoomArm arm_of(const Boom& boom, const ViewAngles& view, const Domain& domain) {
   const double zenith = radians(std::abs(view.vza_deg));

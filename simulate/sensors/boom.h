@@ -19,7 +19,7 @@ struct Boom {
   Eigen::Vector3d about_m = Eigen::Vector3d::Zero();
   double distance_m = 1;
   double width_m = 1, height_m = 1;  // of the rectangle: across and along the plane of the boom
-  ImageSize nadir;                   // the image that looks straight down
+  PixelGrid nadir;                   // the image that looks straight down
 };
 
 // Angles between the line to the point and the edges of the rectangle.

@@ -26,7 +26,7 @@ void require_rays(const TomlValue& rig, const Camera& lens) {
       check(lens.width_px * (1.0 * i / inside) - 0.5, lens.height_px * (1.0 * k / inside) - 0.5);
 }
 
-Placement read_rig_placement(const TomlValue& value, const Camera& camera) {
+SensorPose read_rig_placement(const TomlValue& value, const Camera& camera) {
   if (!value.is_array() || value.size() != 3) value.reject("expected the 3 rows of a 3x4 matrix [R | t]");
   Eigen::Matrix3d r;
   Eigen::Vector3d t;
@@ -45,8 +45,8 @@ Placement read_rig_placement(const TomlValue& value, const Camera& camera) {
 
 }  // namespace
 
-Placement placement_in_scene(const Camera& camera, const Eigen::Matrix3d& r_scene_from_rig,
-                             const Eigen::Vector3d& t_scene_from_rig_m) {
+SensorPose placement_in_scene(const Camera& camera, const Eigen::Matrix3d& r_scene_from_rig,
+                              const Eigen::Vector3d& t_scene_from_rig_m) {
   const Eigen::Matrix3d r_scene_from_cam = r_scene_from_rig * camera.r_cam_from_rig.transpose();
   return {t_scene_from_rig_m - r_scene_from_cam * camera.t_cam_from_rig_m, r_scene_from_cam.col(2),
           r_scene_from_cam.col(0), r_scene_from_cam.col(1)};

@@ -7,8 +7,8 @@ namespace bpms {
 
 class OrthographicSensor : public Sensor {
  public:
-  Placement camera;
-  ImageSize size;
+  SensorPose camera;
+  PixelGrid size;
   double width_m = 1, height_m = 1;
   double zenith_deg = 0, azimuth_deg = 0;  // towards the sensor
   bool above = false;                      // no point of the image plane is within the scene

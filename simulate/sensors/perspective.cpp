@@ -30,7 +30,7 @@ Ray PerspectiveSensor::start(std::size_t view, const SensorNumbers& random, cons
 
 namespace {
 
-constexpr double widest_deg = 179.0;
+constexpr double widest_field_deg = 179.0;
 
 // Of the image: zoom, fov_deg, or focal length and pixel size.
 void read_field(const TomlValue& table, const TomlValue& focal_length, PerspectiveSensor& out) {
@@ -50,17 +50,18 @@ void read_field(const TomlValue& table, const TomlValue& focal_length, Perspecti
     out.semi_width = 0.5 * columns * (two ? pixel[0] : pixel).positive() / f_um;
     out.semi_height = 0.5 * rows * (two ? pixel[1] : pixel).positive() / f_um;
   } else {
-    out.semi_height = zoom ? 1.0 / zoom.positive() : std::tan(0.5 * radians(field.number(0.001, widest_deg)));
+    out.semi_height =
+        zoom ? 1.0 / zoom.positive() : std::tan(0.5 * radians(field.number(0.001, widest_field_deg)));
     out.semi_width = out.semi_height * columns / rows * (aspect ? aspect.positive() : 1.0);
   }
   const double wider = std::max(out.semi_width, out.semi_height);
-  if (!(wider <= std::tan(0.5 * radians(widest_deg))))
+  if (!(wider <= std::tan(0.5 * radians(widest_field_deg))))
     (zoom    ? zoom
      : field ? field
              : pixel)
         .reject(
             fmt::format("the field is {:.4g} degrees wide: expected at most {} (see type = \"spherical\")",
-                        degrees(2 * std::atan(wider)), widest_deg));
+                        degrees(2 * std::atan(wider)), widest_field_deg));
 }
 
 void read_aperture(const TomlValue& table, const TomlValue& focal_length, PerspectiveSensor& out) {

@@ -12,8 +12,8 @@ namespace bpms {
 
 class PerspectiveSensor : public Sensor {
  public:
-  Placement camera;  // location: the perspective centre
-  ImageSize size;
+  SensorPose camera;  // location: the perspective centre
+  PixelGrid size;
   double semi_width = 1, semi_height = 1;  // of the image at unit distance; not used with a calibrated lens
   std::optional<Camera> lens;
   double aperture_radius_m = 0;
@@ -34,7 +34,7 @@ class PerspectiveSensor : public Sensor {
 };
 
 // The placement of a calibrated camera in the scene: X_scene = r X_rig + t.
-Placement placement_in_scene(const Camera& camera, const Eigen::Matrix3d& r_scene_from_rig,
-                             const Eigen::Vector3d& t_scene_from_rig_m);
+SensorPose placement_in_scene(const Camera& camera, const Eigen::Matrix3d& r_scene_from_rig,
+                              const Eigen::Vector3d& t_scene_from_rig_m);
 
 }  // namespace bpms

@@ -36,8 +36,8 @@ Eigen::Vector3d read_place(const TomlValue& value, const Scene& scene) {
   return out;
 }
 
-Placement read_placement(const TomlValue& table, const Scene& scene) {
-  Placement out;
+SensorPose read_placement(const TomlValue& table, const Scene& scene) {
+  SensorPose out;
   const TomlValue location = table.get("location");
   const TomlValue look_at = table.get("look_at");
   const TomlValue direction = table.get("direction");
@@ -65,7 +65,7 @@ Placement read_placement(const TomlValue& table, const Scene& scene) {
   return out;
 }
 
-ImageSize read_image_size(const TomlValue& table) {
+PixelGrid read_image_size(const TomlValue& table) {
   const TomlValue columns = table.get("width_px"), rows = table.get("height_px");
   if (!columns) table.reject_choice("missing key 'width_px'");
   if (!rows) table.reject_choice("missing key 'height_px'");

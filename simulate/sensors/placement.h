@@ -11,25 +11,25 @@
 namespace bpms {
 
 // Unit vectors at right angles, right x down = look: the axes x, y, z of a camera in the scene.
-struct Placement {
+struct SensorPose {
   Eigen::Vector3d location_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d look = -Eigen::Vector3d::UnitZ();
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();
   Eigen::Vector3d down = -Eigen::Vector3d::UnitY();
 };
 
-Placement read_placement(const TomlValue& table, const Scene& scene);
+SensorPose read_placement(const TomlValue& table, const Scene& scene);
 Eigen::Vector3d read_vector(const TomlValue& value);
 Eigen::Vector3d read_direction(const TomlValue& value);                  // unit
 Eigen::Vector3d read_place(const TomlValue& value, const Scene& scene);  // a location
 void reject_below_ground(const TomlValue& value, const Scene& scene, double lowest_m, const char* what);
 
-struct ImageSize {
+struct PixelGrid {
   int columns = 0, rows = 0;
   std::size_t pixels() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 inline constexpr int most_pixels_a_side = 20000;
-ImageSize read_image_size(const TomlValue& table);  // width_px, height_px
+PixelGrid read_image_size(const TomlValue& table);  // width_px, height_px
 
 // Pixels count by rows from the top; the centre of (column, row) is at these integers.
 struct PixelIndex {

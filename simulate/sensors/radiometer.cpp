@@ -38,7 +38,7 @@ class RadiometerSensor : public Sensor {
 std::unique_ptr<Sensor> read_radiometer_sensor(const TomlValue& table, const SensorContext& context) {
   const TomlValue field = table.get("fov_deg");
   const bool cosine = table.boolean_or("cosine", false);
-  const Placement at = read_placement(table, context.scene);
+  const SensorPose at = read_placement(table, context.scene);
   auto out = std::make_unique<RadiometerSensor>(at.location_m, at.look, context.scene.domain);
   out->cosine = cosine;
   if (cosine && field) field.reject("with cosine = true the field is the hemisphere: expected no fov_deg");

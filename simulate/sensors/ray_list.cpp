@@ -29,7 +29,7 @@ class RayListSensor : public Sensor {
     std::vector<double> cumulative;  // of the weights, the last is 1
   };
   std::vector<View> list;
-  ImageSize size;
+  PixelGrid size;
   bool divergent = false;
   Domain domain;
 

@@ -17,10 +17,12 @@ Eigen::Vector3d SphericalSensor::outwards(double column, double row) const {
   const Eigen::Vector2d at = in_circle(column, row);
   const double from_middle = at.norm();
   const double radius = from_middle <= 1 ? from_middle : std::max(0.0, 2 - from_middle);
-  const double angle =
-      projection == Projection::equal_angle ? radius * pi / 2 : 2 * std::asin(radius / std::numbers::sqrt2);
+  const double angle = projection == SphereProjection::equal_angle
+                           ? radius * pi / 2
+                           : 2 * std::asin(radius / std::numbers::sqrt2);
   const Eigen::Vector2d across = from_middle > 0 ? (at / from_middle).eval() : Eigen::Vector2d::Zero();
-  const Eigen::Vector3d middle = hemisphere == Hemisphere::in ? Eigen::Vector3d(-camera.look) : camera.look;
+  const Eigen::Vector3d middle =
+      hemisphere == SphereLooking::in ? Eigen::Vector3d(-camera.look) : camera.look;
   return (std::cos(angle) * middle + std::sin(angle) * (across.x() * camera.right + across.y() * camera.down))
       .normalized();
 }
@@ -28,7 +30,7 @@ Eigen::Vector3d SphericalSensor::outwards(double column, double row) const {
 Ray SphericalSensor::start(std::size_t view, const SensorNumbers& random, const Extent&) const {
   const PixelIndex pixel = pixel_of(view, side);
   const Eigen::Vector3d out = outwards(pixel.column + random.u - 0.5, pixel.row + random.v - 0.5);
-  if (hemisphere == Hemisphere::out) return ray_of(camera.location_m, out);
+  if (hemisphere == SphereLooking::out) return ray_of(camera.location_m, out);
   return ray_of(camera.location_m + radius_m * out, -out);
 }
 
@@ -42,7 +44,7 @@ Angles SphericalSensor::angles(std::size_t view) const {
   if (!covers(view)) return {none, none};
   const PixelIndex pixel = pixel_of(view, side);
   const Eigen::Vector3d out = outwards(pixel.column, pixel.row);
-  return angles_of(hemisphere == Hemisphere::in ? out : Eigen::Vector3d(-out), domain);
+  return angles_of(hemisphere == SphereLooking::in ? out : Eigen::Vector3d(-out), domain);
 }
 
 std::unique_ptr<Sensor> read_spherical_sensor(const TomlValue& table, const SensorContext& context) {
@@ -53,14 +55,14 @@ std::unique_ptr<Sensor> read_spherical_sensor(const TomlValue& table, const Sens
   for (const char* key : {"width_px", "height_px"}) table.get(key);
   out->camera = read_placement(table, context.scene);
   out->domain = context.scene.domain;
-  const ImageSize size = read_image_size(table);
+  const PixelGrid size = read_image_size(table);
   if (size.columns != size.rows)
     table.require("height_px").reject("expected the width in pixels: the image is a circle in a square");
   out->side = size.columns;
-  if (looking && looking.one_of({"in", "out"}) == "out") out->hemisphere = Hemisphere::out;
+  if (looking && looking.one_of({"in", "out"}) == "out") out->hemisphere = SphereLooking::out;
   if (projection && projection.one_of({"equal_angle", "equal_area"}) == "equal_area")
-    out->projection = Projection::equal_area;
-  if (out->hemisphere == Hemisphere::out) {
+    out->projection = SphereProjection::equal_area;
+  if (out->hemisphere == SphereLooking::out) {
     if (radius) radius.reject("rays start at the location: expected looking = \"in\" with it");
     return out;
   }

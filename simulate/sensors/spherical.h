@@ -11,17 +11,17 @@
 
 namespace bpms {
 
-enum class Hemisphere { in, out };
-enum class Projection { equal_angle, equal_area };
+enum class SphereLooking { in, out };
+enum class SphereProjection { equal_angle, equal_area };
 
 class SphericalSensor : public Sensor {
  public:
-  Placement camera;
+  SensorPose camera;
   Domain domain;
   int side = 1;  // pixels
   double radius_m = 1;
-  Hemisphere hemisphere = Hemisphere::in;
-  Projection projection = Projection::equal_angle;
+  SphereLooking hemisphere = SphereLooking::in;
+  SphereProjection projection = SphereProjection::equal_angle;
 
   // From the centre to the point of the surface (in) or of the scene (out) that is seen there; pixel centres
   // are integers.

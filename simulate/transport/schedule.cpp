@@ -22,6 +22,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t first_round = 32;  // paths a batch
+// Of the first hits of parallel rays: a grid costs as much as some 3e5 of them through the intersector.
+constexpr std::uint64_t worth_a_grid = 400'000, most_grid_bytes = std::uint64_t{1} << 27;
 
 // Rounded up to four steps an octave, which keeps Sobol points balanced.
 std::uint64_t round_up(double paths) {
@@ -95,14 +97,12 @@ class ViewState {
     goal = done;
     out_of_time = true;
   }
-  // A grid for this view's first hits costs as much as some 3e5 of its rays through the intersector.
   void prepare(const Sensor& sensor) {
-    constexpr std::uint64_t worth_a_grid = 400'000, most_bytes = std::uint64_t{1} << 27;
     const std::uint64_t planned = std::max(goal * batches, stage_->simulation->sampling.samples);
     if (asked_for_rays_ || planned < worth_a_grid) return;
     asked_for_rays_ = true;
     if (const auto towards = sensor.parallel(view))
-      view_rays = stage_->intersector->parallel_rays(stage_->simulation->scene, *towards, most_bytes);
+      view_rays = stage_->intersector->parallel_rays(stage_->simulation->scene, *towards, most_grid_bytes);
   }
   void finish(SensorResult& result) const {
     std::vector<const ViewCounts*> counts;
@@ -213,6 +213,11 @@ void run_pixels(Run& run, const Sensor& sensor, const Sums<Tally>& sums, SensorR
   std::atomic<bool> out_of_time{false}, out_of_samples{false};
   std::atomic<std::uint64_t> rays{0}, lost{0};
   const std::size_t tiles = (sensor.views() + together - 1) / together;
+  // The pixels of an orthographic image share a direction.
+  const auto towards = sensor.parallel(0);
+  std::unique_ptr<const ParallelRays> grid;
+  if (towards && sensor.views() * std::max<std::uint64_t>(sampling.samples, batches * first_round) >= worth_a_grid)
+    grid = run.stage->intersector->parallel_rays(run.stage->simulation->scene, *towards, most_grid_bytes);
   std::atomic<std::size_t> started{0};
   parallel_for(tiles, [&](std::size_t tile) {
     // Each tile gets its share of the time that is left.
@@ -225,10 +230,11 @@ void run_pixels(Run& run, const Sensor& sensor, const Sums<Tally>& sums, SensorR
     std::vector<ViewState<Tally>*> active;
     for (std::size_t view = tile * together; view < std::min(sensor.views(), (tile + 1) * together); ++view) {
       pixels.emplace_back(*run.stage, sums.sources, sums.empty, view);
-      pixels.back().goal = next_size(sampling, 0, 0);
+      if (sensor.covers(view)) pixels.back().goal = next_size(sampling, 0, 0);
     }
-    for (auto& pixel : pixels) active.push_back(&pixel);
-    Wave<Tally> wave(*run.stage);
+    for (auto& pixel : pixels)
+      if (pixel.goal > 0) active.push_back(&pixel);
+    Wave<Tally> wave(*run.stage, grid.get());
     while (!active.empty() && !interrupted()) {
       pace.start_round(active);
       for (ViewState<Tally>* pixel : active) {

@@ -121,9 +121,9 @@ TEST(ZibordiVoss, TransmittanceOfTheSample) {
   BPMS_NEED_DATA("sky/direct.total_irradiance.all");
   const std::string folder = data_folder() + "/sky/", file = folder + "direct.total_irradiance.all";
   const auto column = [&](int number) { return read_curve(file, fmt::format("{}", number)); };
-  const Curve direct = column(2), diffuse = column(4), depth = column(7), down = column(8), up = column(9),
-              percent = column(10);
-  const Curve above = read_curve(folder + "E0D", "2");
+  const ColumnCurve direct = column(2), diffuse = column(4), depth = column(7), down = column(8),
+                    up = column(9), percent = column(10);
+  const ColumnCurve above = read_curve(folder + "E0D", "2");
   ASSERT_GT(direct.x.size(), 5u);
   const double first = direct.y[0] / down.y[0] / above.at(direct.x[0]);
   // A distance of the earth from the sun within its year.

@@ -5,31 +5,31 @@
 namespace bpms::test {
 namespace {
 
-Placement placement_of(const std::string& text) {
+SensorPose placement_of(const std::string& text) {
   const SensorScene scene;
   return read_placement(TomlDocument::parse("scene.toml", text).root(), scene.scene);
 }
 
-TEST(Placement, LooksDownWithNorthAtTheTop) {
-  const Placement at = placement_of("location = [1, 2, 3]\ndirection = [0, 0, -2]");
+TEST(SensorPlacement, LooksDownWithNorthAtTheTop) {
+  const SensorPose at = placement_of("location = [1, 2, 3]\ndirection = [0, 0, -2]");
   EXPECT_LT((at.look - Eigen::Vector3d(0, 0, -1)).norm(), 1e-15);
   EXPECT_LT((at.right - Eigen::Vector3d(1, 0, 0)).norm(), 1e-15);
   EXPECT_LT((at.down - Eigen::Vector3d(0, -1, 0)).norm(), 1e-15);
 }
 
-TEST(Placement, LooksNorthWithEastAtTheRight) {
-  const Placement at = placement_of("location = [1, 2, 3]\nlook_at = [1, 5, 3]");
+TEST(SensorPlacement, LooksNorthWithEastAtTheRight) {
+  const SensorPose at = placement_of("location = [1, 2, 3]\nlook_at = [1, 5, 3]");
   EXPECT_LT((at.right - Eigen::Vector3d(1, 0, 0)).norm(), 1e-15);
   EXPECT_LT((at.down - Eigen::Vector3d(0, 0, -1)).norm(), 1e-15);
 }
 
-TEST(Placement, UpTurnsTheImage) {
-  const Placement at = placement_of("location = [1, 2, 3]\ndirection = [0, 1, 0]\nup = [1, 7, 0]");
+TEST(SensorPlacement, UpTurnsTheImage) {
+  const SensorPose at = placement_of("location = [1, 2, 3]\ndirection = [0, 1, 0]\nup = [1, 7, 0]");
   EXPECT_LT((at.down - Eigen::Vector3d(-1, 0, 0)).norm(), 1e-15);
   EXPECT_NEAR(at.look.dot(at.right.cross(at.down)), 1, 1e-15);
 }
 
-TEST(Placement, AnglesAreThoseOfTheScenesConvention) {
+TEST(SensorPlacement, AnglesAreThoseOfTheScenesConvention) {
   Domain domain;
   for (const bool north : {true, false}) {
     domain.azimuth_north_clockwise = north;
@@ -41,7 +41,7 @@ TEST(Placement, AnglesAreThoseOfTheScenesConvention) {
   }
 }
 
-TEST(Placement, TheHighestPointCountsInstancesAndTheirScale) {
+TEST(SensorPlacement, TheHighestPointCountsInstancesAndTheirScale) {
   SensorScene scene;
   EXPECT_DOUBLE_EQ(highest_m(scene.scene), 2);
   scene.scene.instances.push_back({0, {0, 0, 1}, 0, 3});
