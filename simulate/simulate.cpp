@@ -13,10 +13,10 @@ namespace {
 void require_free(const Sensor& sensor, const Intersector& intersector, const Extent& extent) {
   if (sensor.parallel(0)) return;
   const Eigen::Vector3f place = sensor.start(sensor.views() / 2, {0.5, 0.5}, extent).origin;
-  if (intersector.inside_solid(place))
+  if (intersector.inside_solid(place.cast<double>()))
     fail(ErrorKind::bad_input, {},
-         "sensor \"{}\" stands at ({:.4g}, {:.4g}, {:.4g}) m, inside a solid or below the ground", sensor.name,
-         place.x(), place.y(), place.z());
+         "sensor \"{}\" stands at ({:.4g}, {:.4g}, {:.4g}) m, inside a solid or below the ground",
+         sensor.name, place.x(), place.y(), place.z());
 }
 
 }  // namespace

@@ -216,7 +216,8 @@ void run_pixels(Run& run, const Sensor& sensor, const Sums<Tally>& sums, SensorR
   // The pixels of an orthographic image share a direction.
   const auto towards = sensor.parallel(0);
   std::unique_ptr<const ParallelRays> grid;
-  if (towards && sensor.views() * std::max<std::uint64_t>(sampling.samples, batches * first_round) >= worth_a_grid)
+  if (towards &&
+      sensor.views() * std::max<std::uint64_t>(sampling.samples, batches * first_round) >= worth_a_grid)
     grid = run.stage->intersector->parallel_rays(run.stage->simulation->scene, *towards, most_grid_bytes);
   std::atomic<std::size_t> started{0};
   parallel_for(tiles, [&](std::size_t tile) {

@@ -81,7 +81,7 @@ TEST(SkyMapSampling, OfAnEvenMapIsTheIsotropicSky) {
   const TemporaryFolder folder;
   SceneText scene = mixed_canopy(folder);
   scene.sensor = views("[[0, 0], [45, 30], [70, 200]]");
-  scene.sampling = "samples = 32768";
+  scene.sampling = "samples = 131072";
   scene.sky = white_sky;
   const SensorResult isotropic = run_of(folder, scene, "", 1);
   scene.sky = even_map(folder);

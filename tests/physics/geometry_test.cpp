@@ -13,7 +13,7 @@ constexpr const char* four_views = "[[0, 0], [35, 100], [45, 200], [65, 280]]";
 void expect_same_brf(const SensorResult& a, const SensorResult& b, double most_error) {
   for (const Component component : {Component::all, Component::co_sgl, Component::uc_sgl, Component::mlt})
     for (std::size_t view = 0; view < 4; ++view) {
-      const Estimates &x = part_of(a, Origin::direct, component), &y = part_of(b, Origin::direct, component);
+      const Estimates &x = part_of(a, Origin::total, component), &y = part_of(b, Origin::total, component);
       expect_agree({x.value[view], x.standard_error[view]}, {y.value[view], y.standard_error[view]},
                    component == Component::all ? most_error : 4 * most_error,
                    fmt::format("{} of view {}", name_of(component), view));
@@ -167,8 +167,8 @@ TEST(Geometry, OpenAndPeriodicDomainsHaveOneReferenceArea) {
   for (const char* boundary : {"open", "periodic"}) {
     scene.domain = fmt::format("size_m = [2, 2]\nboundary = \"{}\"", boundary);
     const SensorResult result = run_of(folder, scene);
-    const Estimates &canopy = part_of(result, Origin::direct, Component::co_sgl),
-                    &soil = part_of(result, Origin::direct, Component::uc_sgl);
+    const Estimates &canopy = part_of(result, Origin::total, Component::co_sgl),
+                    &soil = part_of(result, Origin::total, Component::uc_sgl);
     expect_agree({canopy.value[0], canopy.standard_error[0]}, {0.4 / 4, 0}, 0.002, boundary);
     // The shadow lies 0.3 m to the west; so much of it is seen.
     expect_agree({soil.value[0], soil.standard_error[0]}, {0.2 * (3 - 0.3) / 4, 0}, 0.002, boundary);

@@ -66,11 +66,11 @@ TEST(BarePlane, OfVerstraetePintyDickinsonHasItsBrf) {
                [&](const ReflectionAngles& at) { return vpd_brf(p, at); });
 }
 
-// A table that is linear in each of its angles by itself.
+// A table that is linear in each of its angles by itself, the same from all sides at nadir.
 TEST(BarePlane, OfATableHasItsBrf) {
   const TemporaryFolder folder;
   const auto linear = [](double light_deg, double view_deg, double azimuth_deg) {
-    return 0.1 + 1e-3 * light_deg + 5e-4 * view_deg + 2e-4 * azimuth_deg;
+    return 0.1 + 1e-3 * light_deg + 5e-4 * view_deg + 3e-6 * view_deg * azimuth_deg;
   };
   std::string rows = "theta_i_deg,theta_r_deg,delta_phi_deg,brf\n";
   for (const double light : {0.0, 30.0, 60.0, 90.0})
@@ -79,10 +79,22 @@ TEST(BarePlane, OfATableHasItsBrf) {
         rows += fmt::format("{},{},{},{}\n", light, view, azimuth, linear(light, view, azimuth));
   folder.write("brf.csv", rows);
   expect_plane(folder, "type = \"tabulated\"\nfile = \"brf.csv\"\n", [&](const ReflectionAngles& at) {
-    // At nadir the azimuth means nothing; there the table's own value at the view's azimuth, 120 degrees off.
-    const double azimuth = at.mu_view > 1 - 1e-12 ? 120 : degrees(std::acos(at.cos_azimuth));
+    const double azimuth = degrees(std::acos(at.cos_azimuth));
     return linear(degrees(std::acos(at.mu_light)), degrees(std::acos(at.mu_view)), azimuth);
   });
+}
+
+// Every direction meets the plane, whatever brings its rays down to it.
+TEST(BarePlane, IsSeenFromEveryDirection) {
+  const TemporaryFolder folder;
+  const SceneText scene{.soil = lambertian("0.3"),
+                        .sun = sun_at(40, 120),
+                        .sensor = principal_plane("{ from = -84, to = 84, step = 2 }"),
+                        .sampling = "samples = 32"};
+  const SensorResult result = run_of(folder, scene);
+  ASSERT_EQ(result.samples.size(), 85u);
+  for (std::size_t view = 0; view < 85; ++view)
+    EXPECT_NEAR(result.radiance[0].value[view], 0.3, 1e-6) << "view " << view;
 }
 
 // The albedo camera over a plane: the integral of its BRF.

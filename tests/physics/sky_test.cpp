@@ -14,12 +14,12 @@ TEST(SkyAndSun, ViewUnderAnIsotropicSkyIsTheDhrOfTheAlbedoCamera) {
     scene.sky.clear();
     scene.sun = sun_at(zenith, azimuth);
     scene.sensor = albedo_down;
-    scene.sampling = "samples = 131072";
+    scene.sampling = "samples = 262144";
     const Mean dhr = estimate_of(run_of(folder, scene, "", 1));
     scene.sun.clear();
     scene.sky = white_sky;
     scene.sensor = views(fmt::format("[[{}, {}]]", zenith, azimuth));
-    scene.sampling = "samples = 65536";
+    scene.sampling = "samples = 131072";
     const Mean hdrf = estimate_of(run_of(folder, scene, "", 2));
     expect_agree(dhr, hdrf, 0.004, fmt::format("zenith {}", zenith));
   }
@@ -91,7 +91,7 @@ TEST(SkyAndSun, ABrightPointOfTheSkyIsASun) {
   folder.write("point.csv", rows);
   SceneText scene = mixed_canopy(folder);
   scene.sensor = views("[[0, 0], [40, 130], [40, 310], [60, 220]]");
-  scene.sampling = "samples = 65536";
+  scene.sampling = "samples = 262144";
   scene.sky = "{ type = \"map\", file = \"point.csv\", irradiance = \"brf\" }";
   const SensorResult sky = run_of(folder, scene, "", 1);
   scene.sky.clear();
