@@ -52,9 +52,13 @@ bool ParallelRays::build(std::uint64_t most_bytes) {
   std::vector<Bounds> bounds(count);
   if (!flatten(bounds)) return false;
   lay_grid(bounds);
+  // In a periodic domain within the cell: a high disc seen at a slant lies several periods off, and only the
+  // nearest of its images counts.
+  const bool wraps = scene_->domain.periodic;
+  const auto in_cell = [wraps](double x, double size) { return wraps ? x - size * std::floor(x / size) : x; };
   for (std::size_t id = 0; id < bounds.size(); ++id) {
-    ellipses_[id].u = static_cast<float>(bounds[id].u - low_.x());
-    ellipses_[id].v = static_cast<float>(bounds[id].v - low_.y());
+    ellipses_[id].u = static_cast<float>(in_cell(bounds[id].u - low_.x(), scene_->domain.size_m.x()));
+    ellipses_[id].v = static_cast<float>(in_cell(bounds[id].v - low_.y(), scene_->domain.size_m.y()));
   }
   return list(bounds, most_bytes - count * sizeof(Ellipse));
 }

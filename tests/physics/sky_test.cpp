@@ -25,6 +25,27 @@ TEST(SkyAndSun, ViewUnderAnIsotropicSkyIsTheDhrOfTheAlbedoCamera) {
   }
 }
 
+// The same of a canopy as high as its cell is wide, whose shadows reach over several periods: a sun is asked
+// through the grid of its parallel rays, the sky never.
+TEST(SkyAndSun, ShadowsReachOverSeveralPeriods) {
+  const TemporaryFolder folder;
+  SceneText scene =
+      canopy_text(folder, {.lai = 3, .radius_m = 0.05, .size_m = {1.5, 1.5}, .bottom_m = 0.1, .top_m = 2.5});
+  scene.leaf = bilambertian("0.2", "0.2");
+  for (const double zenith : {50.0, 70.0}) {
+    scene.sky.clear();
+    scene.sun = sun_at(zenith, 0);
+    scene.sensor = albedo_down;
+    scene.sampling = "samples = 65536";
+    const Mean dhr = estimate_of(run_of(folder, scene, "", 1));
+    scene.sun.clear();
+    scene.sky = white_sky;
+    scene.sensor = views(fmt::format("[[{}, 0]]", zenith));
+    scene.sampling = "samples = 131072";
+    expect_agree(dhr, estimate_of(run_of(folder, scene, "", 2)), 0.02, fmt::format("zenith {}", zenith));
+  }
+}
+
 // A sky brighter towards one side, in steps of a grid; `name`.csv.
 std::string uneven_map(const TemporaryFolder& folder) {
   std::string rows = "zenith_deg,azimuth_deg,radiance\n";
