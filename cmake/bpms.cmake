@@ -57,20 +57,22 @@ function(bpms_tool name)
   target_link_libraries(${name} PRIVATE bpms_flags ${ARG_LINK})
 endfunction()
 
-# bpms_test(core SOURCES ... LINK ... [SLOW]): one GoogleTest program a folder; label "fast" unless SLOW.
+# bpms_test(core SOURCES ... LINK ... [SLOW] [LABELS physics]): one GoogleTest program a folder; label "fast" unless SLOW, and
+# what LABELS adds.
 function(bpms_test name)
-  cmake_parse_arguments(ARG "SLOW" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "SLOW" "" "SOURCES;LINK;LABELS" ${ARGN})
   find_package(GTest REQUIRED)
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE bpms_flags ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE BPMS_SOURCE_DIR="${CMAKE_SOURCE_DIR}" BPMS_BINARY_DIR="${CMAKE_BINARY_DIR}")
   include(GoogleTest)
   if(ARG_SLOW)
-    set(label slow)
+    set(labels slow ${ARG_LABELS})
   else()
-    set(label fast)
+    set(labels fast ${ARG_LABELS})
   endif()
-  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} TIMEOUT 600)
+  list(JOIN labels "\\;" labels)
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${labels}" TIMEOUT 600)
 endfunction()
 
 # bpms_fuzz(csv SOURCES ... LINK ...): a libFuzzer target with the seed corpus tests/fuzz/corpus/NAME.

@@ -84,8 +84,9 @@ Intersector::Impl::Impl(const Scene& scene, const IntersectorOptions& options)
   if (!(top >= bottom)) top = bottom = 0;
   if (!periodic && !(high.x() >= low.x())) low = high = Eigen::Vector2d::Zero();
   if (!periodic && size.minCoeff() > 0) low = -0.5 * size, high = 0.5 * size;
-  // Never nothing: a ray brought down to a bare plane at height 0 must not round to below it.
-  slack = 1e-5 * std::max({std::abs(top), std::abs(bottom), top - bottom, 1e-4});
+  // Never 0: a ray that was brought down to the top of a bare plane must not start beneath it.
+  constexpr double least_height_m = 0.1;
+  slack = 1e-5 * std::max({std::abs(top), std::abs(bottom), top - bottom, least_height_m});
   lift = traced.instanced() ? lift_instanced : lift_flat;
 }
 

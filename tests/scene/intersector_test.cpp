@@ -49,6 +49,28 @@ TEST(Intersector, MeetsTheGroundFarOutsideAnOpenScene) {
   EXPECT_EQ(intersector.intersect({{0, 0, -1}, {0, 0, -1}, 1e30f, {}}, hit), Escape::bottom);
 }
 
+// A bare plane at 0 m is a slab of no thickness: rays brought down to its top must not be found beneath it.
+TEST(Intersector, MeetsABarePlaneFromEveryDirection) {
+  for (const bool periodic : {true, false})
+    for (const double height_m : {0.0, 2.5}) {
+      Scene scene = empty_scene(2, periodic);
+      scene.ground = Ground{height_m, 1};
+      const Intersector intersector(scene);
+      int met = 0;
+      for (int zenith = 0; zenith < 85; ++zenith) {
+        const double t = radians(zenith);
+        Hit hit;
+        const auto above = static_cast<float>(height_m + 1e-4);
+        const Ray ray{{0.3f, 0.2f, above},
+                      {static_cast<float>(std::sin(t)), 0, static_cast<float>(-std::cos(t))},
+                      1e30f,
+                      {}};
+        met += intersector.intersect(ray, hit) == Escape::hit && hit.ground;
+      }
+      EXPECT_EQ(met, 85) << (periodic ? "periodic, " : "open, ") << height_m;
+    }
+}
+
 TEST(Intersector, StopsAtFar) {
   const Intersector intersector(disc_above_ground());
   const Eigen::Vector3f origin(1, 0, 5), down(0, 0, -1);
