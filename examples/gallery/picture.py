@@ -99,7 +99,7 @@ if __name__ == "__main__":
     import os
 
     picture = beside([read(path) for path in sys.argv[2:]])
-    for few in (64, 48, 32, 24, 16):
+    for few in (256, 128, 64, 48, 32, 24, 16):
         write(sys.argv[1], picture, few)
         if os.path.getsize(sys.argv[1]) <= 100_000:
             break
