@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Positions, Refused,
     ::testing::ValuesIn(std::vector<Refusal>{
-        file("Truncated", "places.def", "0 0 0\n0.3 0", "places.def:2: ", {"2 columns, expected 3 to 4"}),
+        file("Truncated", "places.def", "0 0 0\n0.3 0", "places.def:2: ", {"2 columns, expected 3 to 6"}),
         file("NotANumber", "places.def", "0 0 0\n0.3 nan 0\n", "places.def:2:5: ", {"'nan'", "finite"}),
         file("HugeNumber", "places.def", "0 0 1e9\n", "places.def:1: ", {"1e7 m"}),
         file("Letters", "places.def", "0 0 zero\n", "places.def:1:5: ", {"'zero'"})}),
