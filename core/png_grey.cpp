@@ -63,7 +63,7 @@ bool read_png_rows(PngReading& reading) {
 
 }  // namespace
 
-GreyImage decode_grey_png(const std::string& bytes, const SourceLocation& where, std::size_t most_pixels) {
+GreyPng decode_grey_png(const std::string& bytes, const SourceLocation& where, std::size_t most_pixels) {
   PngReading reading;
   reading.source.bytes = &bytes;
   reading.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reading.source, end_png, pass_over_warning);
@@ -87,7 +87,7 @@ GreyImage decode_grey_png(const std::string& bytes, const SourceLocation& where,
     reading.rows.push_back(reading.bytes.data() + row * row_bytes);
   if (!read_png_rows(reading)) bad_input(where, "PNG: {}", in_quotes(reading.source.message));
 
-  GreyImage out;
+  GreyPng out;
   out.width = static_cast<int>(reading.width);
   out.height = static_cast<int>(reading.height);
   out.full_scale = (1 << reading.bits) - 1;

@@ -143,7 +143,7 @@ RasterNumbers parse_rows(const std::string& path, const std::string& text, bool 
 RasterNumbers parse_raster(const std::string& path, const std::string& bytes, bool integers) {
   if (bytes.starts_with("P2") || bytes.starts_with("P5")) return parse_pgm(path, bytes);
   if (bytes.starts_with("\x89PNG")) {
-    GreyImage image = decode_grey_png(bytes, {path}, most_raster_pixels);
+    GreyPng image = decode_grey_png(bytes, {path}, most_raster_pixels);
     return {static_cast<std::size_t>(image.width),
             static_cast<std::size_t>(image.height),
             {image.values.begin(), image.values.end()},

@@ -16,9 +16,9 @@ std::string digits(double value, int significant) {
   return std::isfinite(value) ? fmt::format("{:.{}g}", value, significant) : std::string();
 }
 
-class Rows {
+class CsvRows {
  public:
-  Rows(const Simulation& simulation, const Sensor& sensor) : simulation_(&simulation), sensor_(&sensor) {}
+  CsvRows(const Simulation& simulation, const Sensor& sensor) : simulation_(&simulation), sensor_(&sensor) {}
 
   // band < 0, order < 0, material < 0: the column does not apply.
   void add(const char* quantity, std::size_t view, int band, const Sun* sun, const std::string& origin,
@@ -51,7 +51,7 @@ class Rows {
   const Sensor* sensor_;
 };
 
-void add_parts(const Simulation& simulation, const SensorResult& result, std::size_t view, Rows& rows) {
+void add_parts(const Simulation& simulation, const SensorResult& result, std::size_t view, CsvRows& rows) {
   const std::size_t bands = simulation.bands.written();
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
     const Part& part = result.parts[p];
@@ -71,7 +71,8 @@ void add_parts(const Simulation& simulation, const SensorResult& result, std::si
   }
 }
 
-void add_fractions(const Simulation& simulation, const SensorResult& result, std::size_t view, Rows& rows) {
+void add_fractions(const Simulation& simulation, const SensorResult& result, std::size_t view,
+                   CsvRows& rows) {
   const auto add = [&](const char* quantity, const Sun* sun, const Estimates& of, std::size_t index,
                        int material) {
     rows.add(quantity, view, -1, sun, "", "", -1, material, of.value[index], of.standard_error[index]);
@@ -103,7 +104,7 @@ struct DerivedQuantities {
 };
 
 void add_derived(const Simulation& simulation, const SensorResult& result, const DerivedQuantities& derived,
-                 std::size_t view, Rows& rows) {
+                 std::size_t view, CsvRows& rows) {
   const std::size_t suns = simulation.light.suns.size(), bands = simulation.bands.written();
   const auto add = [&](const char* quantity, const Sun* sun, const Estimates& of, std::size_t index,
                        int band) {
@@ -133,7 +134,7 @@ std::string result_csv(const Simulation& simulation, const Result& result) {
     const SensorResult& sensor = result.sensors[i];
     if (sensor.sensor->is_image()) continue;  // pixels are in the NetCDF
     const DerivedQuantities derived(simulation, result, i);
-    Rows rows(simulation, *sensor.sensor);
+    CsvRows rows(simulation, *sensor.sensor);
     for (std::size_t view = 0; view < sensor.samples.size(); ++view) {
       if (sensor.samples[view] == 0) continue;
       add_parts(simulation, sensor, view, rows);

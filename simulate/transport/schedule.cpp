@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t first_round = 32;  // paths a batch
 // Of the first hits of parallel rays: a grid costs as much as some 3e5 of them through the intersector.
-constexpr std::uint64_t worth_a_grid = 400'000, most_grid_bytes = std::uint64_t{1} << 27;
+constexpr std::uint64_t worth_a_grid = 400'000, most_view_grid_bytes = std::uint64_t{1} << 27;
 
 // Rounded up to four steps an octave, which keeps Sobol points balanced.
 std::uint64_t round_up(double paths) {
@@ -102,7 +102,8 @@ class ViewState {
     if (asked_for_rays_ || planned < worth_a_grid) return;
     asked_for_rays_ = true;
     if (const auto towards = sensor.parallel(view))
-      view_rays = stage_->intersector->parallel_rays(stage_->simulation->scene, *towards, most_grid_bytes);
+      view_rays =
+          stage_->intersector->parallel_rays(stage_->simulation->scene, *towards, most_view_grid_bytes);
   }
   void finish(SensorResult& result) const {
     std::vector<const ViewCounts*> counts;
@@ -218,7 +219,8 @@ void run_pixels(Run& run, const Sensor& sensor, const Sums<Tally>& sums, SensorR
   std::unique_ptr<const ParallelRays> grid;
   if (towards &&
       sensor.views() * std::max<std::uint64_t>(sampling.samples, batches * first_round) >= worth_a_grid)
-    grid = run.stage->intersector->parallel_rays(run.stage->simulation->scene, *towards, most_grid_bytes);
+    grid =
+        run.stage->intersector->parallel_rays(run.stage->simulation->scene, *towards, most_view_grid_bytes);
   std::atomic<std::size_t> started{0};
   parallel_for(tiles, [&](std::size_t tile) {
     // Each tile gets its share of the time that is left.

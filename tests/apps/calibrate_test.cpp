@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                {"2 usable views"}),
         images("TwoUsableAndOneCutShort",
                two_boards_and("left3.png", std::string("\x89PNG\r\n\x1a\n") + "IHDR"), "",
-               {"left3.png", "cut short"}),
+               {"2 usable views"}),
         images("TwoUsableAndOneThatIsNoImage", two_boards_and("left3.png", "no image"), "",
                {"2 usable views"})}),
     name_of_case);

@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
         planted("HugeImage", "width_px = 4", "width_px = 1e9", "14:12: ", {"width_px"}),
         planted("FieldOfAHalfTurn", "fov_deg = 20", "fov_deg = 180", "13:11: ", {"fov_deg"}),
         planted("LooksAtItself", "look_at = [0, 0, 0]", "look_at = [0, 0, 3]",
-                "12:11: ", {"away from the camera"}),
+                "12:11: ", {"away from the sensor"}),
         planted("LocationNotANumber", "location = [0, 0, 3]", "location = [0, nan, 3]",
                 "11:16: ", {"location", "finite"}),
         planted("FarAway", "location = [0, 0, 3]", "location = [0, 0, 1e14]", "11:12: ", {"location"}),
@@ -177,20 +177,20 @@ INSTANTIATE_TEST_SUITE_P(
         file("Letters", "places.def", "0 0 zero\n", "places.def:1:5: ", {"'zero'"})}),
     name_of_case);
 
-INSTANTIATE_TEST_SUITE_P(Spectrum, Refused,
-                         ::testing::ValuesIn(std::vector<Refusal>{
-                             file("Truncated", "soil.csv", "nm,reflectance\n400,0.1\n700,",
-                                  "soil.csv:3:", {"wavelength in nm and a value"}),
-                             file("OnlyAHeader", "soil.csv", "nm,reflectance\n", "soil.csv: ", {"no rows"}),
-                             file("NotANumber", "soil.csv", "400,0.1\n700,nan\n",
-                                  "soil.csv:2:5: ", {"'700 nan'"}),
-                             file("Descending", "soil.csv", "700,0.1\n400,0.2\n",
-                                  "soil.csv:2:", {"400 nm does not come after 700 nm"}),
-                             file("InPercent", "soil.csv", "400,10\n700,20\n", "", {"from 0 to 1"}),
-                             file("InMicrometres", "soil.csv", "0.4,0.1\n0.7,0.2\n", "", {"0.4 to 0.7 nm"}),
-                             file("Negative", "soil.csv", "400,0.1\n700,-0.2\n", "", {"from 0 to 1"}),
-                             file("HugeNumber", "soil.csv", "400,0.1\n700,1e300\n", "", {"from 0 to 1"})}),
-                         name_of_case);
+INSTANTIATE_TEST_SUITE_P(
+    Spectrum, Refused,
+    ::testing::ValuesIn(std::vector<Refusal>{
+        file("Truncated", "soil.csv", "nm,reflectance\n400,0.1\n700,",
+             "soil.csv:3:", {"wavelength in nm and a value"}),
+        file("OnlyAHeader", "soil.csv", "nm,reflectance\n", "soil.csv: ", {"no rows"}),
+        file("NotANumber", "soil.csv", "400,0.1\n700,nan\n", "soil.csv:2:5: ", {"'700 nan'"}),
+        file("Descending", "soil.csv", "700,0.1\n400,0.2\n",
+             "soil.csv:2:", {"400 nm does not come after 700 nm"}),
+        file("InPercent", "soil.csv", "400,10\n700,20\n", "", {"from 0 to 1"}),
+        file("InMicrometres", "soil.csv", "0.4,0.1\n0.7,0.2\n", "", {"0.4 to 0.7", "micrometres"}),
+        file("Negative", "soil.csv", "400,0.1\n700,-0.2\n", "", {"from 0 to 1"}),
+        file("HugeNumber", "soil.csv", "400,0.1\n700,1e300\n", "", {"from 0 to 1"})}),
+    name_of_case);
 
 const std::string with_mesh = "mesh = \"leaf.obj\"\nunit = \"cm\"";
 Edit mesh(const std::string& prototype, const std::string& content) {
