@@ -70,7 +70,7 @@ Json primitive(Buffer& buffer, const Mesh& mesh, const MeshOfOrgan& part, std::u
   for (const std::uint32_t vertex : part.vertices) {
     positions.push_back(y_up(mesh.positions_m[vertex]));
     normals.push_back(y_up(mesh.normals[vertex]));
-    uv.push_back(mesh.uv[vertex]);
+    uv.emplace_back(mesh.uv[vertex].x(), 1 - mesh.uv[vertex].y());  // glTF counts V from the top
   }
   Json attributes{{"POSITION", buffer.add_positions(positions)},
                   {"NORMAL", buffer.add(normals, 3, "VEC3", float_type, vertex_target)},
