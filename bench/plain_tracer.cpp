@@ -30,15 +30,11 @@ class PlainScene {
     scene_ = rtcNewScene(device_);
     std::vector<Disc> discs;
     for (const Instance& instance : scene.instances) {
-      const auto cosine = static_cast<float>(std::cos(instance.rotation)),
-                 sine = static_cast<float>(std::sin(instance.rotation)),
-                 scale = static_cast<float>(instance.scale);
-      const auto turned = [&](const Vector3f& v) {
-        return Vector3f(cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y(), v.z());
-      };
+      const Eigen::Matrix3f turn = instance.rotation.matrix().cast<float>();
+      const auto scale = static_cast<float>(instance.scale);
       for (const Disc& own : scene.prototypes[instance.prototype].discs) {
-        const Disc disc{instance.position_m.cast<float>() + scale * turned(own.centre_m),
-                        scale * own.radius_m, turned(own.normal)};
+        const Disc disc{instance.position_m.cast<float>() + scale * (turn * own.centre_m),
+                        scale * own.radius_m, turn * own.normal};
         for (const float x : {-2 * half_, 0.0f, 2 * half_}) {
           for (const float y : {-2 * half_, 0.0f, 2 * half_}) {
             Disc copy = disc;
