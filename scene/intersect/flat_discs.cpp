@@ -173,9 +173,7 @@ float FlatDiscs::height_at(const Ellipse& e, float u, float v) const {
   return inside <= 1.0f ? e.height + e.a * du + e.b * dv : nowhere;
 }
 
-bool FlatDiscs::any_above(double u, double v, float z, std::uint32_t skip) const {
-  Spot at{};
-  if (!spot(u, v, at)) return false;
+bool FlatDiscs::any_above(const Spot& at, float z, std::uint32_t skip) const {
   for (std::uint32_t k = first_entry_[at.square]; k < first_entry_[at.square + 1]; ++k) {
     const Entry& entry = entries_[k];
     if (entry.top <= z) return false;
@@ -184,10 +182,8 @@ bool FlatDiscs::any_above(double u, double v, float z, std::uint32_t skip) const
   return false;
 }
 
-std::uint32_t FlatDiscs::highest(double u, double v, float& height) const {
+std::uint32_t FlatDiscs::highest(const Spot& at, float& height) const {
   std::uint32_t id = none;
-  Spot at{};
-  if (!spot(u, v, at)) return id;
   for (std::uint32_t k = first_entry_[at.square]; k < first_entry_[at.square + 1]; ++k) {
     const Entry& entry = entries_[k];
     if (entry.top <= height) break;
@@ -195,11 +191,6 @@ std::uint32_t FlatDiscs::highest(double u, double v, float& height) const {
     if (found > height) height = found, id = entry.id;
   }
   return id;
-}
-
-void FlatDiscs::prefetch(double u, double v) const {
-  Spot at{};
-  if (spot(u, v, at)) __builtin_prefetch(&entries_[first_entry_[at.square]]);
 }
 
 std::uint64_t FlatDiscs::memory_bytes() const {

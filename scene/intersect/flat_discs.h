@@ -26,11 +26,24 @@ class FlatDiscs {
   // Makes the grid. False: a disc is seen wider than half the period, or it takes more bytes.
   bool finish(std::uint64_t most_bytes);
 
-  // Is any disc but `skip` met above z, by the ray at (u, v)?
-  bool any_above(double u, double v, float z, std::uint32_t skip) const;
+  // Where the ray at (u, v) looks.
+  struct Spot {
+    std::size_t square;
+    float u, v;
+  };
+  bool spot(double u, double v, Spot& out) const;  // false: nothing is there
+  // Is any disc but `skip` met above z?
+  bool any_above(const Spot& at, float z, std::uint32_t skip) const;
   // The disc met highest, when above `height`, which it raises; or none.
-  std::uint32_t highest(double u, double v, float& height) const;
-  void prefetch(double u, double v) const;
+  std::uint32_t highest(const Spot& at, float& height) const;
+  // Starts to bring what these will read from memory, one thing after the other: each is found in the one
+  // before.
+  void bring_square(const Spot& at) const { __builtin_prefetch(&first_entry_[at.square]); }
+  void bring_list(const Spot& at) const { __builtin_prefetch(&entries_[first_entry_[at.square]]); }
+  void bring_disc(const Spot& at) const {
+    const std::uint32_t first = first_entry_[at.square];
+    if (first < first_entry_[at.square + 1]) __builtin_prefetch(&ellipses_[entries_[first].id]);
+  }
 
   // What is covered, without a period.
   const Eigen::Vector2d& low() const { return low_; }
@@ -54,13 +67,8 @@ class FlatDiscs {
     double u = 0, v = 0, half_u = -1, half_v = 0;
     float top = 0;
   };
-  struct Spot {
-    std::size_t square;
-    float u, v;
-  };
   void lay_grid();
   bool list(std::uint64_t most_bytes);
-  bool spot(double u, double v, Spot& out) const;
   std::size_t number_of(long column, long row) const;
   std::size_t squares() const;
   template <class Visit>

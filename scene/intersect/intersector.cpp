@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/intersect/disc_grid.h"
 #include "scene/intersect/parallel_rays.h"
 #include "scene/intersect/traced_scene.h"
 
@@ -39,7 +40,8 @@ struct Intersector::Impl {
   enum class Met { nothing, geometry, ground };
   struct Found {
     embree::Found what;
-    Way way;  // the piece it was met on
+    Way way;               // the piece it was met on
+    DiscGrid::Found disc;  // where there is a grid
   };
 
   Way start(const Ray& ray) const;
@@ -48,16 +50,20 @@ struct Intersector::Impl {
   Escape trace(const Ray& ray, Found& found, double& ground_distance) const;
   template <bool any>
   bool piece(const Way& way, double length, embree::Found& found) const;
+  template <bool any>
+  DiscGrid::End through_grid(double last, Found& found) const;
   bool is_start(const Way& way, const embree::Found& found) const;
   bool is_start_shape(const Way& way, const embree::Found& found, const Eigen::Vector3d& start) const;
   double to_plane(const Way& way) const;
   void describe(const Found& found, Hit& hit) const;
+  void describe_in_grid(const Found& found, Hit& hit) const;
   Eigen::Vector3d describe_disc(const Found& found, const Prototype& prototype, Hit& hit) const;
   Eigen::Vector3d describe_triangle(const Found& found, const Prototype& prototype, Hit& hit) const;
   Eigen::Vector3d describe_shape(const Found& found, const Prototype& prototype, Hit& hit) const;
   void describe_ground(const Way& way, double distance, Hit& hit) const;
 
   TracedScene traced;
+  std::unique_ptr<DiscGrid> grid;
   std::optional<Ground> ground;
   bool periodic;
   int max_wraps;
@@ -88,6 +94,7 @@ Intersector::Impl::Impl(const Scene& scene, const IntersectorOptions& options)
   constexpr double least_height_m = 0.1;
   slack = 1e-5 * std::max({std::abs(top), std::abs(bottom), top - bottom, least_height_m});
   lift = traced.instanced() ? lift_instanced : lift_flat;
+  if (options.disc_grid) grid = DiscGrid::make(traced, scene);
 }
 
 void Intersector::Impl::into_cell(Eigen::Vector3d& point) const {
@@ -100,6 +107,7 @@ void Intersector::Impl::into_cell(Eigen::Vector3d& point) const {
 Intersector::Impl::Way Intersector::Impl::start(const Ray& ray) const {
   Way way{ray.origin.cast<double>(), ray.direction.cast<double>(), ray.far, 0, 0, ray.from, false, 0};
   if (periodic) into_cell(way.origin);
+  if (grid) return way;  // which tells the ray's own disc by its number
   way.lift = lift * (way.origin.cwiseAbs().maxCoeff() + 1e-3);
   if (TracedScene::is_primitive(way.from)) {
     // A point of a wide triangle near the scene's origin is as inexact as the triangle's far corners.
@@ -169,6 +177,15 @@ double Intersector::Impl::to_plane(const Way& way) const {
 }
 
 template <bool any>
+DiscGrid::End Intersector::Impl::through_grid(double last, Found& found) const {
+  const Way& way = found.way;
+  DiscGrid::Query query{way.origin, way.direction, last, DiscGrid::none, any, max_wraps};
+  if (way.from.geometry == TracedScene::discs)
+    query.skip = grid->first_id(way.from.instance) + way.from.primitive;
+  return grid->first(query, found.disc);
+}
+
+template <bool any>
 Escape Intersector::Impl::trace(const Ray& ray, Found& found, double& ground_distance) const {
   embree::prepare_thread();
   Way& way = found.way;
@@ -190,6 +207,20 @@ Escape Intersector::Impl::trace(const Ray& ray, Found& found, double& ground_dis
   }
   const bool may_meet_ground = ground && ground->has_plane() && way.from.geometry != TracedScene::ground &&
                                (way.origin.z() >= ground->height_m ? dz < 0 : dz > 0);
+  if (grid) {
+    const double to_far = way.far - way.before;
+    // Ground beneath all discs is met by what met none of them.
+    const bool among = may_meet_ground && ground->height_m > traced.box().low.z();
+    const DiscGrid::End met = through_grid<any>(among ? std::min(to_far, to_plane(way)) : to_far, found);
+    if (met == DiscGrid::End::disc) return Escape::hit;
+    if (met == DiscGrid::End::wraps) return Escape::wrap_limit;
+    if (may_meet_ground) {
+      ground_distance = to_plane(way);
+      if (ground_distance <= to_far) return Escape::hit;
+      ground_distance = -1;
+    }
+    return dz < 0 ? Escape::bottom : Escape::top;
+  }
   for (int wraps = 0;; ++wraps) {
     const double to_far = way.far - way.before;
     if (to_far < 0) return dz < 0 ? Escape::bottom : Escape::top;
@@ -225,7 +256,9 @@ Escape Intersector::Impl::trace(const Ray& ray, Found& found, double& ground_dis
 }
 
 void Intersector::Impl::describe(const Found& found, Hit& hit) const {
-  const auto& [what, way] = found;
+  if (grid) return describe_in_grid(found, hit);
+  const embree::Found& what = found.what;
+  const Way& way = found.way;
   const SurfaceId id = traced.id(what);
   const Prototype& prototype = traced.prototype(id.instance);
   hit.id = id;
@@ -245,9 +278,30 @@ void Intersector::Impl::describe(const Found& found, Hit& hit) const {
   hit.position = position.cast<float>();
 }
 
+void Intersector::Impl::describe_in_grid(const Found& found, Hit& hit) const {
+  const DiscGrid::Found& disc = found.disc;
+  const Prototype& prototype = traced.prototype(disc.instance);
+  hit.id = {disc.instance, TracedScene::discs, disc.primitive};
+  hit.distance = static_cast<float>(found.way.before + disc.distance);
+  hit.ground = false;
+  hit.organ = 0xffffffffu;
+  hit.extent = static_cast<float>(2 * disc.radius);
+  hit.front = disc.normal.dot(found.way.direction) < 0;
+  hit.geometric_normal = hit.shading_normal = disc.normal.cast<float>();
+  hit.uv.setZero();
+  hit.dp_du.setZero();
+  hit.dp_dv.setZero();
+  hit.material = prototype.material_of_disc.empty() ? prototype.disc_material
+                                                    : prototype.material_of_disc[disc.primitive];
+  Eigen::Vector3d position = disc.position;
+  if (periodic) into_cell(position);
+  hit.position = position.cast<float>();
+}
+
 Eigen::Vector3d Intersector::Impl::describe_disc(const Found& found, const Prototype& prototype,
                                                  Hit& hit) const {
-  const auto& [what, way] = found;
+  const embree::Found& what = found.what;
+  const Way& way = found.way;
   double extent = 0;
   const auto [point, normal] = traced.disc(what, hit.id, extent);
   hit.extent = static_cast<float>(extent);
@@ -265,7 +319,8 @@ Eigen::Vector3d Intersector::Impl::describe_disc(const Found& found, const Proto
 
 Eigen::Vector3d Intersector::Impl::describe_triangle(const Found& found, const Prototype& prototype,
                                                      Hit& hit) const {
-  const auto& [what, way] = found;
+  const embree::Found& what = found.what;
+  const Way& way = found.way;
   const SurfaceId& id = hit.id;
   const Mesh& mesh = *prototype.mesh;
   const std::array<std::uint32_t, 3>& corners = mesh.triangles[id.primitive];
@@ -397,7 +452,7 @@ Eigen::Vector2f Intersector::cell_high_m() const {
   return impl_->high.cast<float>();
 }
 std::uint64_t Intersector::memory_bytes() const {
-  return impl_->traced.memory_bytes();
+  return impl_->traced.memory_bytes() + (impl_->grid ? impl_->grid->memory_bytes() : 0);
 }
 std::uint64_t Intersector::estimated_bytes() const {
   return impl_->traced.estimated_bytes();

@@ -63,6 +63,8 @@ struct IntersectorOptions {
   // A scene that is estimated to need more is refused (missing_resource) before anything is built; 0: no
   // limit.
   std::uint64_t most_bytes = 0;
+  // Discs that fill the scene evenly are traced through cells (disc_grid.h) and not through Embree.
+  bool disc_grid = true;
 };
 
 class ParallelRays;

@@ -146,11 +146,6 @@ void ParallelRays::list_standing() {
     visit(standing_[k], [&](std::size_t square) { listed_[next[square]++] = k; });
 }
 
-Eigen::Vector2d ParallelRays::flat(const Eigen::Vector3f& point) const {
-  const Eigen::Vector3d p = point.cast<double>();
-  return p.head<2>() - p.z() * shear_;
-}
-
 // What stands over the ray and reaches above that height, until visit(...) says true; highest first.
 template <class Visit>
 void ParallelRays::visit_standing(Eigen::Vector2d at, float above, Visit visit) const {
@@ -175,31 +170,30 @@ void ParallelRays::visit_standing(Eigen::Vector2d at, float above, Visit visit) 
   }
 }
 
-bool ParallelRays::occluded(const Eigen::Vector3f& point, const SurfaceId& from) const {
-  if (scene_->ground && static_cast<double>(point.z()) < scene_->ground->height_m &&
+bool ParallelRays::occluded(const Look& look, float z, const SurfaceId& from) const {
+  if (scene_->ground && static_cast<double>(z) < scene_->ground->height_m &&
       from.geometry != TracedScene::ground)
     return true;
-  const Eigen::Vector2d at = flat(point);
   const bool on_disc = from.geometry == TracedScene::discs;
-  if (!rest_.empty() &&
-      rest_.any_above(at.x(), at.y(), point.z(),
-                      on_disc ? first_id_[from.instance] + from.primitive : FlatDiscs::none))
+  if (look.any &&
+      rest_.any_above(look.spot, z, on_disc ? first_id_[from.instance] + from.primitive : FlatDiscs::none))
     return true;
   bool met = false;
-  visit_standing(at, point.z(), [&](const Standing& s, double u, double v) {
+  visit_standing(look.at, z, [&](const Standing& s, double u, double v) {
     const std::uint32_t skip = on_disc && from.instance == s.instance ? from.primitive : FlatDiscs::none;
-    met = groups_[s.group].any_above(u, v, point.z() - s.z, skip);
+    FlatDiscs::Spot spot{};
+    met = groups_[s.group].spot(u, v, spot) && groups_[s.group].any_above(spot, z - s.z, skip);
     return met;
   });
   return met;
 }
 
-bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
-  const Eigen::Vector2d at = flat(point);
+bool ParallelRays::first(const Look& look, float from_z, Hit& hit) const {
+  const Eigen::Vector2d& at = look.at;
   float height = scene_->ground ? static_cast<float>(scene_->ground->height_m) : bottomless;
   std::uint32_t instance = FlatDiscs::none, primitive = FlatDiscs::none;
-  if (!rest_.empty()) {
-    const std::uint32_t id = rest_.highest(at.x(), at.y(), height);
+  if (look.any) {
+    const std::uint32_t id = rest_.highest(look.spot, height);
     if (id != FlatDiscs::none) {
       const auto after = std::upper_bound(first_id_.begin(), first_id_.end(), id);
       instance = static_cast<std::uint32_t>(after - first_id_.begin() - 1);
@@ -209,7 +203,9 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
   visit_standing(at, height, [&](const Standing& s, double u, double v) {
     if (s.top <= height) return true;
     float own = height - s.z;
-    const std::uint32_t id = groups_[s.group].highest(u, v, own);
+    FlatDiscs::Spot spot{};
+    if (!groups_[s.group].spot(u, v, spot)) return false;
+    const std::uint32_t id = groups_[s.group].highest(spot, own);
     if (id != FlatDiscs::none) height = own + s.z, instance = s.instance, primitive = id;
     return false;
   });
@@ -223,7 +219,7 @@ bool ParallelRays::first(const Eigen::Vector3f& point, Hit& hit) const {
       position[axis] -= size * std::floor((position[axis] + 0.5 * size) / size);
     }
   hit.position = position.cast<float>();
-  hit.distance = static_cast<float>((static_cast<double>(point.z()) - z) / towards_.z());
+  hit.distance = static_cast<float>((static_cast<double>(from_z) - z) / towards_.z());
   describe(instance, primitive, hit);
   return true;
 }
@@ -251,12 +247,6 @@ void ParallelRays::describe(std::uint32_t instance, std::uint32_t primitive, Hit
   hit.front = normal.dot(towards_) > 0;
   hit.material =
       prototype.material_of_disc.empty() ? prototype.disc_material : prototype.material_of_disc[primitive];
-}
-
-void ParallelRays::prefetch(const Eigen::Vector3f& point) const {
-  if (rest_.empty()) return;
-  const Eigen::Vector2d at = flat(point);
-  rest_.prefetch(at.x(), at.y());
 }
 
 std::uint64_t ParallelRays::memory_bytes() const {

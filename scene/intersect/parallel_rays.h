@@ -24,13 +24,32 @@ class ParallelRays {
   static std::unique_ptr<ParallelRays> make(const TracedScene& traced, const Scene& scene,
                                             const Eigen::Vector3d& towards, std::uint64_t most_bytes);
 
+  // Where in the grids the ray through a point is.
+  struct Look {
+    Eigen::Vector2d at;  // (u, v)
+    FlatDiscs::Spot spot;
+    bool any;  // spot is known: something may be there, besides what stands
+  };
+  Look look(const Eigen::Vector3f& point) const {
+    Look out{flat(point), {}, false};
+    out.any = !rest_.empty() && rest_.spot(out.at.x(), out.at.y(), out.spot);
+    return out;
+  }
+  // Starts to bring what the ray will read from memory: stages 0, 1, 2, each a few rays before the next.
+  void bring(const Look& look, int stage) const {
+    if (!look.any) return;
+    if (stage == 0) rest_.bring_square(look.spot);
+    if (stage == 1) rest_.bring_list(look.spot);
+    if (stage == 2) rest_.bring_disc(look.spot);
+  }
   // Is there anything between a point of the surface `from` and infinity?
-  bool occluded(const Eigen::Vector3f& point, const SurfaceId& from) const;
+  bool occluded(const Look& look, float z, const SurfaceId& from) const;
+  bool occluded(const Eigen::Vector3f& point, const SurfaceId& from) const {
+    return occluded(look(point), point.z(), from);
+  }
   // The first hit of a ray that starts above the scene and runs along -towards, through `point`.
-  bool first(const Eigen::Vector3f& point, Hit& hit) const;
-
-  // Starts to bring what a ray through this point will read; ask for some rays before they are traced.
-  void prefetch(const Eigen::Vector3f& point) const;
+  bool first(const Look& look, float z, Hit& hit) const;
+  bool first(const Eigen::Vector3f& point, Hit& hit) const { return first(look(point), point.z(), hit); }
 
   std::uint64_t memory_bytes() const;
 
@@ -48,7 +67,10 @@ class ParallelRays {
   void stand(std::uint32_t instance, std::uint32_t group);
   void list_standing();
   void add_discs(std::uint32_t instance, bool at_origin, FlatDiscs& to) const;
-  Eigen::Vector2d flat(const Eigen::Vector3f& point) const;  // (u, v)
+  Eigen::Vector2d flat(const Eigen::Vector3f& point) const {  // (u, v)
+    const Eigen::Vector3d p = point.cast<double>();
+    return p.head<2>() - p.z() * shear_;
+  }
   template <class Visit>
   void visit_standing(Eigen::Vector2d at, float above, Visit visit) const;
   void describe(std::uint32_t instance, std::uint32_t primitive, Hit& hit) const;

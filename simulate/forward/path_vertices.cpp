@@ -74,10 +74,11 @@ PathVertices trace_vertices(const PhotonStage& stage, const std::vector<const Pa
   }
   std::vector<std::uint64_t> places(count), spare;
   std::vector<std::uint16_t> piece_of(count);
+  const Curve curve(stage.extent);
   parallel_for(pieces.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < pieces[i].list.size(); ++k) {
       const std::size_t at = begin[i] + k;
-      places[at] = std::uint64_t{place_on_curve(pieces[i].list[k].position, stage.extent)} << 32 | at;
+      places[at] = std::uint64_t{curve.place(pieces[i].list[k].position)} << 32 | at;
       piece_of[at] = static_cast<std::uint16_t>(i);
     }
   });
@@ -87,7 +88,7 @@ PathVertices trace_vertices(const PhotonStage& stage, const std::vector<const Pa
   constexpr std::size_t block = 1 << 16;
   parallel_for((count + block - 1) / block, [&](std::size_t b) {
     for (std::size_t to = b * block; to < std::min(count, (b + 1) * block); ++to) {
-      const std::size_t from = places[to] & 0xffffffffu;
+      const std::size_t from = places[to] & index_of_place;
       const PathVertices& piece = pieces[piece_of[from]];
       const std::size_t k = from - begin[piece_of[from]];
       out.list[to] = piece.list[k];

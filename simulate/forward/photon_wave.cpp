@@ -6,19 +6,6 @@
 #include "simulate/transport/basis.h"
 
 namespace bpms {
-namespace {
-
-// The low ten bits of a cell's number, two apart.
-std::uint32_t spread_ten(float x) {
-  auto bits = static_cast<std::uint32_t>(std::clamp(x, 0.0f, 1023.0f));
-  bits = (bits | bits << 16) & 0x030000ffu;
-  bits = (bits | bits << 8) & 0x0300f00fu;
-  bits = (bits | bits << 4) & 0x030c30c3u;
-  return (bits | bits << 2) & 0x09249249u;
-}
-
-}  // namespace
-
 PhotonStage::PhotonStage(const Simulation& all, const Intersector& rays)
     : simulation(&all),
       intersector(&rays),
@@ -77,32 +64,6 @@ bool scatter_lobes(Photon& photon, const PhotonOptics& optics, InteractionNumber
   }
   if (!lobe.lobe->is_straight()) photon.direction = frame.to_world(to).normalized();
   return true;
-}
-
-std::uint32_t place_on_curve(const Eigen::Vector3f& point, const Extent& extent) {
-  const Eigen::Vector2d size = extent.high_m - extent.low_m;
-  const auto scale =
-      static_cast<float>(1023.0 / std::max({size.x(), size.y(), extent.top_m - extent.bottom_m, 1e-6}));
-  return spread_ten((point.x() - static_cast<float>(extent.low_m.x())) * scale) |
-         spread_ten((point.y() - static_cast<float>(extent.low_m.y())) * scale) << 1 |
-         spread_ten((point.z() - static_cast<float>(extent.bottom_m)) * scale) << 2;
-}
-
-void sort_places(std::vector<std::uint64_t>& places, std::vector<std::uint64_t>& spare) {
-  constexpr std::size_t digits = 10, worth_counting = 4096;
-  if (places.size() < worth_counting) {
-    std::sort(places.begin(), places.end());
-    return;
-  }
-  spare.resize(places.size());
-  for (std::size_t shift = 32; shift < 32 + 3 * digits; shift += digits) {
-    std::array<std::uint32_t, (1u << digits) + 1> start{};
-    const auto digit = [shift](std::uint64_t item) { return (item >> shift) & ((1u << digits) - 1); };
-    for (const std::uint64_t item : places) ++start[digit(item) + 1];
-    for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-    places.swap(spare);
-    for (const std::uint64_t item : spare) places[start[digit(item)]++] = item;
-  }
 }
 
 bool within(const Eigen::Vector3f& point, const Extent& extent) {

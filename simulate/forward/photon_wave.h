@@ -14,6 +14,7 @@
 
 #include "simulate/forward/photon_optics.h"
 #include "simulate/forward/photon_source.h"
+#include "simulate/transport/places.h"
 #include "simulate/transport/sampler.h"
 #include "simulate/transport/stage.h"
 
@@ -69,10 +70,6 @@ void scatter_diffuse(Photon& photon, const PhotonOptics& optics, const Interacti
 // By any part of a surface that has lobes. They are reciprocal: what the sensor's side is to a lobe, the
 // photon's is here. False: it ends.
 bool scatter_lobes(Photon& photon, const PhotonOptics& optics, InteractionNumbers random, float* weight);
-// The place of a point along a Morton curve through the scene's box, in 30 bits.
-std::uint32_t place_on_curve(const Eigen::Vector3f& point, const Extent& extent);
-// By the upper half, equal ones as they stand.
-void sort_places(std::vector<std::uint64_t>& places, std::vector<std::uint64_t>& spare);
 // How a ray from `position` leaves, given that it met nothing.
 Exit exit_of(const Photon& photon, Escape escape, const Extent& extent, bool periodic);
 // Is a point of the ground (or the top) within the box?
@@ -109,14 +106,15 @@ void PhotonWave<Sink>::run(const PhotonSource& source, const ParallelRays* rays,
       source.is_sun ? 0 : 1;  // the sky's direction used the first interaction's numbers
   const int most = stage_.simulation->sampling.max_order;
   std::vector<std::uint64_t> spare;
+  const Curve curve(stage_.extent);
   const auto sort = [&](std::vector<Photon>& photons) {
     order_.clear();
     for (std::size_t i = 0; i < photons.size(); ++i)
-      order_.push_back(std::uint64_t{place_on_curve(photons[i].position, stage_.extent)} << 32 | i);
+      order_.push_back(std::uint64_t{curve.place(photons[i].position)} << 32 | i);
     sort_places(order_, spare);
   };
   sort(next_);
-  for (const std::uint64_t item : order_) photons_.push_back(next_[item & 0xffffffffu]);
+  for (const std::uint64_t item : order_) photons_.push_back(next_[item & index_of_place]);
   for (int order = 0; !photons_.empty(); ++order) {
     next_.clear();
     for (Photon& photon : photons_)
@@ -124,7 +122,7 @@ void PhotonWave<Sink>::run(const PhotonSource& source, const ParallelRays* rays,
     photons_.clear();
     sort(next_);
     for (const std::uint64_t item : order_) {
-      Photon& photon = next_[item & 0xffffffffu];
+      Photon& photon = next_[item & index_of_place];
       sink_.arrive(photon, weight(photon), order);
       numbers.start(photon.sample);
       if (scatter(photon, numbers.interaction(static_cast<std::uint32_t>(order) + shift)) &&

@@ -2,14 +2,16 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "scene/intersect/look_ahead.h"
 #include "simulate/transport/estimate.h"
+#include "simulate/transport/places.h"
 
 namespace bpms {
 namespace {
 
 constexpr float one_over_pi = std::numbers::inv_pi_v<float>;
-constexpr std::size_t look_ahead = 8;  // vertices whose squares of the grid are asked for before their turn
 
 // In [0, 1), by the vertex and the view (splitmix64's finaliser).
 float chance_number(const PathVertex& v, std::size_t view) {
@@ -49,6 +51,7 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays,
   std::vector<Start> starts;
   std::vector<std::uint64_t> order, spare;
   constexpr std::uint64_t together = 4096;  // of each batch: neighbours read the same squares
+  const Curve unit_curve({{0, 0}, {1, 1}, 1, 0});
   for (std::uint64_t first = rays_; first < last; first += together) {
     starts.clear(), order.clear();
     for (std::size_t batch = 0; batch < batches; ++batch) {
@@ -56,8 +59,7 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays,
       for (std::uint64_t sample = first; sample < std::min(last, first + together); ++sample) {
         numbers.start(sample);
         const auto [u, v] = numbers.position();
-        order.push_back(std::uint64_t{place_on_curve({static_cast<float>(u), static_cast<float>(v), 0.0f},
-                                                     {{0, 0}, {1, 1}, 1, 0})}
+        order.push_back(std::uint64_t{unit_curve.place({static_cast<float>(u), static_cast<float>(v), 0.0f})}
                             << 32 |
                         starts.size());
         starts.push_back({sensor_->start(view_, {u, v}, stage_->extent), static_cast<std::uint32_t>(batch),
@@ -65,15 +67,16 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays,
       }
     }
     sort_places(order, spare);
+    std::optional<LookAhead> looks;
+    if (view_rays != nullptr) looks.emplace(*view_rays, order.size());
+    const auto origin = [&](std::size_t k) { return starts[order[k] & index_of_place].ray.origin; };
     for (std::size_t i = 0; i < order.size(); ++i) {
-      if (view_rays != nullptr && i + look_ahead < order.size())
-        view_rays->prefetch(starts[order[i + look_ahead] & 0xffffffffu].ray.origin);
-      const Start& start = starts[order[i] & 0xffffffffu];
+      const Start& start = starts[order[i] & index_of_place];
       ViewCounts& counts = counts_[start.batch];
       ++counts.paths, ++counts.rays;
       Hit hit;
-      const bool met = view_rays != nullptr ? view_rays->first(start.ray.origin, hit)
-                                            : stage_->intersector->intersect(start.ray, hit) == Escape::hit;
+      const bool met = looks ? view_rays->first(looks->at(i, origin), start.ray.origin.z(), hit)
+                             : stage_->intersector->intersect(start.ray, hit) == Escape::hit;
       if (!met || hit.ground) ++counts.gap;
       if (!met) continue;
       for (std::size_t sun = 0; sun < rows_.suns; ++sun)
@@ -127,9 +130,10 @@ void ViewSums::add_vertices(const PathVertices& vertices, const ParallelRays* vi
   // Least variance x work on HET01: 0.6; 0 (look at all), 0.3 and 0.9 are a few per cent worse.
   constexpr float part_of_strongest = 0.6f;
   const float always_above = 1.0f / (part_of_strongest * std::max(1e-6f, optics.largest_factor()));
+  std::optional<LookAhead> looks;
+  if (view_rays != nullptr) looks.emplace(*view_rays, list.size());
+  const auto position = [&](std::size_t k) { return list[k].position; };
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (view_rays != nullptr && i + look_ahead < list.size())
-      view_rays->prefetch(list[i + look_ahead].position);
     const PathVertex& v = list[i];
     if (v.sample < photons_ || v.sample >= last) continue;
     const float cosine = v.normal.dot(towards_);
@@ -149,8 +153,8 @@ void ViewSums::add_vertices(const PathVertices& vertices, const ParallelRays* vi
     }
     ViewCounts& counts = counts_[v.batch];
     ++counts.rays;
-    if (view_rays != nullptr ? view_rays->occluded(v.position, v.surface())
-                             : stage_->intersector->occluded({v.position, towards_, 1e30f, v.surface()}))
+    if (looks ? view_rays->occluded(looks->at(i, position), v.position.z(), v.surface())
+              : stage_->intersector->occluded({v.position, towards_, 1e30f, v.surface()}))
       continue;
     double* to = sum(v.batch, rows_.sun(v.order, v.source));  // the sky follows the suns
     double* group = photon_groups_.data() + (v.batch * groups + v.sample % groups) * optics.bands;

@@ -1,6 +1,7 @@
-// The random numbers of a path: Owen-scrambled Sobol points for the start and the first two interactions (10
-// dimensions), Philox beyond. Every number depends on (seed, sensor, view, batch, sample, branch, dimension)
-// alone. Batches of one view have independent scrambles, and so have the branches of a path that was split.
+// The random numbers of a path: Owen-scrambled Sobol points for the start and the first interaction, Philox
+// beyond (on the homogeneous disc canopy Sobol points there take time and leave the variance as it is). Every
+// number depends on (seed, sensor, view, batch, sample, branch, dimension) alone. Batches of one view have
+// independent scrambles, and so have the branches of a path that was split.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -37,8 +38,8 @@ class PathNumbers {
     const auto bits = words(number, 0);
     InteractionNumbers out{unit_interval(bits[0]), unit_interval(bits[1]), unit_interval(bits[2]),
                            unit_interval(bits[3])};
-    if (number < 2) {
-      const int first = (number == 0 ? 2 : 5) + static_cast<int>(branch_) * per_branch;
+    if (number == 0) {
+      const int first = 2 + static_cast<int>(branch_) * per_branch;
       out.direction_u = sobol_of(first);
       out.direction_v = sobol_of(first + 1);
       out.side = sobol_of(first + 2);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "simulate/materials/bumped_normal.h"
 #include "simulate/transport/basis.h"
@@ -16,19 +17,7 @@ namespace bpms {
 namespace {
 
 constexpr float inverse_pi = std::numbers::inv_pi_v<float>;
-// How many paths ahead memory is asked for: first the path, then what its sun ray will read.
-constexpr std::size_t far_ahead = 16, ahead = 8;
-constexpr std::uint64_t low_word = 0xffffffffu;
-
-// The low ten bits of a cell's number, two apart.
-std::uint64_t spread(float x) {
-  auto bits = static_cast<std::uint32_t>(std::clamp(x, 0.0f, 1023.0f));
-  bits = (bits | bits << 16) & 0x030000ffu;
-  bits = (bits | bits << 8) & 0x0300f00fu;
-  bits = (bits | bits << 4) & 0x030c30c3u;
-  bits = (bits | bits << 2) & 0x09249249u;
-  return bits;
-}
+constexpr std::size_t far_ahead = 20;  // paths: from which on their memory is asked for
 
 // Evenly over the cap of directions within acos(cos_radius) of `centre`.
 Eigen::Vector3f direction_in_cap(const Eigen::Vector3f& centre, float cos_radius,
@@ -48,15 +37,9 @@ Wave<Tally>::Wave(const Stage& stage, const ParallelRays* view_rays)
       light_(stage.simulation->light),
       sampling_(stage.simulation->sampling),
       view_rays_(view_rays),
+      curve_(stage.extent),
       values_(std::max(lanes, stage.optics.bands)),
-      sky_values_(values_.size()) {
-  const Extent& extent = stage.extent;
-  const Eigen::Vector2d size = extent.high_m - extent.low_m;
-  low_ = {static_cast<float>(extent.low_m.x()), static_cast<float>(extent.low_m.y()),
-          static_cast<float>(extent.bottom_m)};
-  const double widest = std::max({size.x(), size.y(), extent.top_m - extent.bottom_m, 1e-6});
-  cells_per_m_ = static_cast<float>(1023.0 / widest);
-}
+      sky_values_(values_.size()) {}
 
 template <class Tally>
 void Wave<Tally>::add(const Sensor& sensor, std::size_t view, const ViewKey& key, std::uint64_t first,
@@ -96,26 +79,28 @@ void Wave<Tally>::add(const Sensor& sensor, std::size_t view, const ViewKey& key
 template <class Tally>
 void Wave<Tally>::run() {
   for (std::size_t i = 0; i < paths_.size(); ++i) note(i);
-  sort();
-  for (const std::uint64_t item : order_) next_.push_back(paths_[item & low_word]);
+  sort_places(order_, unsorted_);
+  for (const std::uint64_t item : order_) next_.push_back(paths_[item & index_of_place]);
+  const auto path_at = [this](std::size_t i) -> Path& { return paths_[order_[i] & index_of_place]; };
   for (int order = 0; !next_.empty(); ++order) {
     paths_.swap(next_);
     next_.clear();
     order_.clear();
-    for (std::size_t i = 0; i < paths_.size(); ++i)
-      if (meet(paths_[i], order)) note(i);
+    meet_all(order);
     if (order == sampling_.max_order && order > 0) {  // only the sky was still to be gathered
-      for (const std::uint64_t item : order_) release(paths_[item & low_word]);
+      for (const std::uint64_t item : order_) release(paths_[item & index_of_place]);
       break;
     }
-    sort();
-    const auto path_at = [&](std::size_t i) -> Path& { return paths_[order_[i] & low_word]; };
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      if (i + far_ahead < order_.size()) __builtin_prefetch(&path_at(i + far_ahead));
-      if (i + ahead < order_.size())
-        for (const SunOptics& sun : stage_.suns)
-          if (sun.rays) sun.rays->prefetch(path_at(i + ahead).position);
-      go_on(path_at(i), order);
+    sort_places(order_, unsorted_);
+    sun_looks_.clear();
+    if (std::all_of(stage_.suns.begin(), stage_.suns.end(), [](const SunOptics& sun) { return sun.rays; }))
+      for (const SunOptics& sun : stage_.suns) sun_looks_.emplace_back(*sun.rays, order_.size());
+    for (now_ = 0; now_ < order_.size(); ++now_) {
+      if (now_ + far_ahead < order_.size()) {
+        const auto* coming = reinterpret_cast<const char*>(&path_at(now_ + far_ahead));
+        for (std::size_t line = 0; line < sizeof(Path); line += 64) __builtin_prefetch(coming + line);
+      }
+      go_on(path_at(now_), order);
     }
   }
   paths_.clear();
@@ -124,32 +109,19 @@ void Wave<Tally>::run() {
   tallies_.clear();
 }
 
-// Where a path is along a space-filling (Morton) curve; coarse, since it only has to bring neighbours
-// together.
 template <class Tally>
-void Wave<Tally>::note(std::size_t i) {
-  const Eigen::Vector3f cell = (paths_[i].position - low_) * cells_per_m_;
-  const std::uint64_t key = spread(cell.x()) | spread(cell.y()) << 1 | spread(cell.z()) << 2;
-  order_.push_back(key << 32 | i);
+void Wave<Tally>::meet_all(int order) {
+  std::optional<LookAhead> looks;
+  if (order == 0 && view_rays_ != nullptr) looks.emplace(*view_rays_, paths_.size());
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    const auto look = looks ? &looks->at(i, [this](std::size_t k) { return paths_[k].position; }) : nullptr;
+    if (meet(paths_[i], order, look)) note(i);
+  }
 }
 
-// By the key, equal ones as they stand.
 template <class Tally>
-void Wave<Tally>::sort() {
-  constexpr std::size_t digits = 10, worth_counting = 4096;
-  if (order_.size() < worth_counting) {
-    std::sort(order_.begin(), order_.end());
-    return;
-  }
-  unsorted_.resize(order_.size());
-  for (std::size_t shift = 32; shift < 32 + 3 * digits; shift += digits) {
-    std::array<std::uint32_t, (1u << digits) + 1> start{};
-    const auto digit = [shift](std::uint64_t item) { return (item >> shift) & ((1u << digits) - 1); };
-    for (const std::uint64_t item : order_) ++start[digit(item) + 1];
-    for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-    order_.swap(unsorted_);
-    for (const std::uint64_t item : unsorted_) order_[start[digit(item)]++] = item;
-  }
+void Wave<Tally>::note(std::size_t i) {
+  order_.push_back(std::uint64_t{curve_.place(paths_[i].position)} << 32 | i);
 }
 
 // What a receiver of irradiance gets from the suns themselves.
@@ -176,13 +148,13 @@ void Wave<Tally>::receive_sun(const Eigen::Vector3f& normal, const Ray& ray, Pat
 
 // False when it meets nothing; else the path is at what it met.
 template <class Tally>
-bool Wave<Tally>::meet(Path& path, int order) {
+bool Wave<Tally>::meet(Path& path, int order, const ParallelRays::Look* look) {
   Escape end = Escape::bottom;
   Hit hit;
-  if (order > 0 || view_rays_ == nullptr)
+  if (look == nullptr)
     end = stage_.intersector->intersect(
         {path.position, path.direction, 1e30f, path.surface, path.normal, path.extent}, hit);
-  else if (view_rays_->first(path.position, hit))
+  else if (view_rays_->first(*look, path.position.z(), hit))
     end = Escape::hit;
   Tally& tally = *tallies_[path.batch];
   ++tally.counts.rays;
@@ -343,6 +315,11 @@ bool Wave<Tally>::sees(const Path& path, const Eigen::Vector3f& towards, std::si
   ++tally.counts.rays;
   Ray ray{path.position, towards, 1e30f, path.surface, path.normal, path.extent};
   if (!stage_.optics.lets_through) {
+    if (sun != no_grid && !sun_looks_.empty()) {
+      const ParallelRays::Look& look = sun_looks_[sun].at(
+          now_, [this](std::size_t k) { return paths_[order_[k] & index_of_place].position; });
+      return !stage_.suns[sun].rays->occluded(look, path.position.z(), path.surface);
+    }
     if (sun != no_grid && stage_.suns[sun].rays)
       return !stage_.suns[sun].rays->occluded(path.position, path.surface);
     return !stage_.intersector->occluded(ray);

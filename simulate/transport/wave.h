@@ -6,6 +6,8 @@
 #pragma once
 #include <vector>
 
+#include "scene/intersect/look_ahead.h"
+#include "simulate/transport/places.h"
 #include "simulate/transport/sampler.h"
 #include "simulate/transport/stage.h"
 
@@ -46,9 +48,10 @@ class Wave {
 
   void release(const Path& path) { tallies_[path.batch]->release(path.weight); }
   void note(std::size_t path);
-  void sort();
   void receive_sun(const Eigen::Vector3f& normal, const Ray& ray, Path& path);
-  bool meet(Path& path, int order);
+  void meet_all(int order);
+  // `look`: the first hit's, where the view has a grid.
+  bool meet(Path& path, int order, const ParallelRays::Look* look);
   std::uint32_t material_at(const Hit& hit) const;
   void bend(Path& path, const Hit& hit) const;
   void escape(const Path& path, int order);
@@ -68,12 +71,13 @@ class Wave {
   const Light& light_;
   const Sampling& sampling_;
   const ParallelRays* view_rays_;
-  Eigen::Vector3f low_;
-  float cells_per_m_;
+  Curve curve_;
   std::vector<PathNumbers> numbers_;
   std::vector<Tally*> tallies_;
   std::vector<Path> paths_, next_;
-  std::vector<std::uint64_t> order_, unsorted_;  // cell << 32 | index into paths_
+  std::vector<std::uint64_t> order_, unsorted_;  // place along the curve << 32 | index into paths_
+  std::vector<LookAhead> sun_looks_;             // one a sun, or none
+  std::size_t now_ = 0;                          // the path that goes on, in order_
   std::vector<float> values_, sky_values_;       // by traced band
 };
 
