@@ -73,7 +73,7 @@ void expect_the_reverse_mode(const Simulation& simulation) {
 TEST(SharedViews, AreTheReverseModesOverDiscs) {
   const TemporaryFolder folder;
   SceneText scene = lit_canopy(folder);
-  scene.sampling = "samples = 65536";
+  scene.sampling = "samples = 131072";
   expect_the_reverse_mode(simulation_of(folder, scene));
 }
 

@@ -60,13 +60,14 @@ TEST(Response, SampledWavelengthsAgreeWithExactOnes) {
   const SensorResult counted = sensor_result(folder, scene, 2);
   scene.bands = "response = \"s.tsv\"\nweighting = \"sampled\"";
   const SensorResult sampled = sensor_result(folder, scene, 3);
-  ASSERT_EQ(exact.parts.size(), sampled.parts.size());
   int compared = 0;
   for (std::size_t p = 0; p < exact.parts.size(); ++p) {
-    if (exact.parts[p].order > 4) continue;
+    const Part& part = exact.parts[p];
+    if (part.order > 4) continue;
+    const Estimates& other = part_of(sampled, part.origin, part.component, part.order);
     for (std::size_t i = 0; i < 4; ++i) {
       ++compared;
-      EXPECT_LT(std::abs(z_of(exact.radiance[p], i, sampled.radiance[p], i)), 4.2) << p << ' ' << i;
+      EXPECT_LT(std::abs(z_of(exact.radiance[p], i, other, i)), 4.2) << p << ' ' << i;
     }
   }
   EXPECT_GT(compared, 60);  // so many that 4 standard errors happen once in 200 runs of this test
