@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/large_vector.h"
 #include "scene/intersect/box.h"
 #include "scene/intersect/intersector.h"
 
@@ -78,9 +79,9 @@ class DiscGrid {
   Eigen::Vector3f cell_m_, per_m_, low_f_;
   std::array<int, 3> cells_{1, 1, 1};
   double widest_ = 0;  // diameter
-  std::vector<std::uint32_t> first_packet_;
-  std::vector<Packet> packets_;
-  std::vector<std::array<std::uint32_t, wide>> ids_;  // of each packet's discs
+  LargeVector<std::uint32_t> first_packet_;
+  LargeVector<Packet> packets_;
+  LargeVector<std::array<std::uint32_t, wide>> ids_;  // of each packet's discs
 };
 
 }  // namespace bpms

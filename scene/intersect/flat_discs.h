@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/large_vector.h"
+
 namespace bpms {
 
 // std::floor, which is a call where the processor is not known to have it.
@@ -85,9 +87,9 @@ class FlatDiscs {
   long columns_ = 1, rows_ = 1;
   long tiles_across_ = 1;       // squares are numbered by tiles: neighbours are near in memory
   std::vector<Bounds> bounds_;  // while it is made
-  std::vector<Ellipse> ellipses_;
-  std::vector<std::uint32_t> first_entry_;  // of each square, and the end
-  std::vector<Entry> entries_;
+  LargeVector<Ellipse> ellipses_;
+  LargeVector<std::uint32_t> first_entry_;  // of each square, and the end
+  LargeVector<Entry> entries_;
 };
 
 }  // namespace bpms

@@ -6,6 +6,7 @@
 #pragma once
 #include <vector>
 
+#include "core/large_vector.h"
 #include "scene/intersect/look_ahead.h"
 #include "simulate/transport/places.h"
 #include "simulate/transport/sampler.h"
@@ -74,7 +75,7 @@ class Wave {
   Curve curve_;
   std::vector<PathNumbers> numbers_;
   std::vector<Tally*> tallies_;
-  std::vector<Path> paths_, next_;
+  LargeVector<Path> paths_, next_;
   std::vector<std::uint64_t> order_, unsorted_;  // place along the curve << 32 | index into paths_
   std::vector<LookAhead> sun_looks_;             // one a sun, or none
   std::size_t now_ = 0;                          // the path that goes on, in order_
