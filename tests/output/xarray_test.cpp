@@ -180,6 +180,32 @@ TEST_F(NetcdfInXarray, HoldsReceivers) {
   EXPECT_EQ(without_units(), "[]\n");
 }
 
+// Fluxes by their origins, which are fractions of what enters from each.
+TEST_F(NetcdfInXarray, HoldsFluxesByOrigin) {
+  SceneText text = canopy_text(folder_, {.lai = 1, .radius_m = 0.1, .size_m = {2, 2}, .bottom_m = 0.1});
+  text.sun = sun_at(30, 90);
+  text.sky = "{ type = \"isotropic\", radiance = 0.5 }";
+  text.sensor = "name = \"fluxes\"\ntype = \"flux\"\nlayers = 2\nmap_px = [3, 2]\n";
+  text.wavelengths_nm = "[650, 850]";
+  text.sampling = "samples = 1024";
+  write(simulation_of(folder_, text));
+  EXPECT_EQ(said("d.transmitted.dims, d.transmitted_direct.dims, d.transmitted_by_origin.dims, "
+                 "d.transmitted_direct_by_origin.shape, sorted(d.transmitted_by_origin.coords), "
+                 "d.absorbed_layer_by_origin.dims, d.absorbed_layer_by_origin.shape, d.absorbed_layer.units, "
+                 "d.ground_irradiance.shape"),
+            "('band',) ('band',) ('band', 'origin') (2, 3) ['origin', 'wavelength'] ('layer', 'band', "
+            "'origin') (2, 2, 3) 1 (2, 3, 2)\n");
+  // The sky gives 0.5 pi beside the sun's pi. What the sun sends straight down is its own, and no more than
+  // all of its light that arrives.
+  EXPECT_THAT(numbers("[(d.reflected_by_origin.sel(origin=\"direct\") + 0.5 * "
+                      "d.reflected_by_origin.sel(origin=\"diffuse\"))[0] / 1.5 - d.reflected[0], "
+                      "d.transmitted_by_origin.sel(origin=\"total\")[1] - d.transmitted[1]]"),
+              ::testing::Each(::testing::AllOf(::testing::Ge(-1e-12), ::testing::Le(1e-12))));
+  EXPECT_THAT(numbers("(d.transmitted_by_origin - d.transmitted_direct_by_origin).values.ravel()"),
+              ::testing::Each(::testing::Gt(0)));
+  EXPECT_EQ(without_units(), "[]\n");
+}
+
 // Views that share paths have a covariance, symmetric, whose diagonal is the square of the standard errors.
 TEST_F(NetcdfInXarray, HoldsTheCovarianceOfViews) {
   SceneText text = canopy_text(folder_, {.lai = 2, .radius_m = 0.1, .size_m = {2, 2}, .bottom_m = 0.1});
