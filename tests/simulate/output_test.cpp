@@ -46,5 +46,22 @@ TEST(Output, ReportHasTheKeysOfTheContract) {
   EXPECT_EQ(report["series"][0]["vza_deg"].size(), 3u);
 }
 
+// Of many bands those nearest to 550, 670, 850 and 1650 nm have curves over the views; every view a spectrum.
+TEST(Output, ReportDrawsAFewOfManyBandsOverTheViews) {
+  const TemporaryFolder folder;
+  SceneText text = three_views;
+  text.wavelengths_nm = "[400, 450, 500, 540, 600, 650, 700, 750, 800, 900]";
+  const Simulation scene = simulation_of(folder, text);
+  const Json report = result_report(scene, simulate(scene, 3));
+  std::vector<double> nm;
+  for (const Json& series : report["series"])
+    if (series["quantity"] == "brf" && series["origin"] == "total" && series["component"] == "all" &&
+        series["order"].is_null())
+      nm.push_back(series["wavelength_nm"]);
+  EXPECT_THAT(nm, ::testing::ElementsAre(540, 650, 800, 900));  // 850: the first of two as near
+  EXPECT_EQ(report["spectra"].size(), 3u);
+  EXPECT_EQ(report["spectra"][0]["wavelength_nm"].size(), 10u);
+}
+
 }  // namespace
 }  // namespace bpms::test
