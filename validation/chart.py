@@ -13,6 +13,13 @@ def ticks(low, high, about=6):
     return [i * step for i in range(first, math.floor(high / step + 1e-9) + 1)]
 
 
+def labels(values):
+    """All with the decimals of their step."""
+    step = min((abs(b - a) for a, b in zip(values, values[1:])), default=abs(values[0]) or 1) if values else 1
+    decimals = next((d for d in range(9) if abs(round(step, d) - step) < 1e-6 * step), 9)
+    return [f"{v if abs(v) > 1e-9 * step else 0:.{decimals}f}" for v in values]
+
+
 class Chart:
     def __init__(self, title, x, y, width=640, height=360):
         self.title, self.x, self.y, self.width, self.height = title, x, y, width, height
@@ -26,8 +33,8 @@ class Chart:
 
     def write(self, path):
         left, right, top, bottom = 66, 14, 30 + 17 * ((len(self.series) + 1) // 2), 46
-        xs = [v for s in self.series for v in s[1]]
-        ys = [v + k * e for s in self.series for v, e in zip(s[2], s[3] or [0] * len(s[2])) for k in (-1, 1)]
+        xs = [v for s in self.series for v in s[1] if v == v]
+        ys = [v + k * e for s in self.series for v, e in zip(s[2], s[3] or [0] * len(s[2])) if v == v for k in (-1, 1)]
         x0, x1, y0, y1 = min(xs), max(xs), min(ys), max(ys)
         margin = 0.05 * (y1 - y0 or abs(y1) or 1)
         y0, y1 = y0 - margin, y1 + margin
@@ -45,12 +52,12 @@ class Chart:
             f'<rect width="{self.width}" height="{self.height}" fill="#fff"/>',
             f'<text x="{left}" y="18" font-size="14">{escape(self.title)}</text>',
         ]
-        for v in ticks(x0, x1):
+        for v, label in zip(ticks(x0, x1), labels(ticks(x0, x1))):
             out.append(f'<path d="M{px(v):.1f} {top}V{self.height - bottom}" stroke="#ddd"/>')
-            out.append(f'<text x="{px(v):.1f}" y="{self.height - bottom + 16}" text-anchor="middle">{v:.6g}</text>')
-        for v in ticks(y0, y1):
+            out.append(f'<text x="{px(v):.1f}" y="{self.height - bottom + 16}" text-anchor="middle">{label}</text>')
+        for v, label in zip(ticks(y0, y1), labels(ticks(y0, y1))):
             out.append(f'<path d="M{left} {py(v):.1f}H{self.width - right}" stroke="#ddd"/>')
-            out.append(f'<text x="{left - 6}" y="{py(v) + 4:.1f}" text-anchor="end">{v:.6g}</text>')
+            out.append(f'<text x="{left - 6}" y="{py(v) + 4:.1f}" text-anchor="end">{label}</text>')
         out.append(f'<text x="{(left + self.width - right) / 2}" y="{self.height - 10}" text-anchor="middle">{escape(self.x)}</text>')
         middle = (top + self.height - bottom) / 2
         out.append(f'<text transform="translate(14 {middle}) rotate(-90)" text-anchor="middle">{escape(self.y)}</text>')
@@ -65,7 +72,11 @@ class Chart:
                 out.append(f'<circle cx="{lx}" cy="{ly - 4}" r="3" fill="{colour}"/>')
             else:
                 dash = ' stroke-dasharray="5 4"' if kind == "dashed" else ""
-                d = "M" + "L".join(f"{px(x):.1f} {py(y):.1f}" for x, y in zip(xv, yv))
+                d, pen = "", "M"
+                for x, y in zip(xv, yv):  # NaN lifts the pen
+                    if x == x and y == y:
+                        d += f"{pen}{px(x):.1f} {py(y):.1f}"
+                    pen = "L" if x == x and y == y else "M"
                 out.append(f'<path d="{d}" fill="none" stroke="{colour}" stroke-width="1.5"{dash}/>')
                 out.append(f'<path d="M{lx - 8} {ly - 4}h16" stroke="{colour}" stroke-width="1.5"{dash}/>')
             out.append(f'<text x="{lx + 12}" y="{ly}">{escape(name)}</text>')

@@ -44,15 +44,16 @@ std::size_t part_number(const SensorResult& result, const Part& wanted) {
 
 }  // namespace
 
-double leaf_area_m2(const Scene& scene) {
+double intercepting_area_m2(const Scene& scene) {
   double out = 0;
   for (const Instance& instance : scene.instances) {
     const Prototype& prototype = scene.prototypes[instance.prototype];
     double own = 0;
     for (const Disc& disc : prototype.discs) own += pi * disc.radius_m * disc.radius_m;
+    for (const Shape& shape : prototype.shapes) own += 0.5 * shape_area_m2(shape);
     if (prototype.mesh)
       for (const Mesh::Organ& organ : prototype.mesh->organs)
-        if (organ.kind == "leaf") own += organ.area_m2;
+        own += (organ.kind == "leaf" ? 1 : 0.5) * organ.area_m2;
     out += own * instance.scale * instance.scale;
   }
   return out;
@@ -80,13 +81,13 @@ Estimates overlap_function(const Simulation& simulation, const Result& result, s
 
 Estimates effective_g(const Simulation& simulation, const Result& result, std::size_t sensor) {
   Estimates out;
-  const double leaves = leaf_area_m2(simulation.scene);
-  if (!has_gaps(simulation, result, sensor) || !(leaves > 0)) return out;
+  const double area = intercepting_area_m2(simulation.scene);
+  if (!has_gaps(simulation, result, sensor) || !(area > 0)) return out;
   const SensorResult& of = result.sensors[sensor];
-  const double per_lai = ground_area_m2(simulation.scene) / leaves;
+  const double per_pai = ground_area_m2(simulation.scene) / area;
   out.resize(of.samples.size());
   for (std::size_t view = 0; view < out.value.size(); ++view) {
-    const double p = of.gap.value[view], scale = view_cosine(of, view) * per_lai;
+    const double p = of.gap.value[view], scale = view_cosine(of, view) * per_pai;
     const bool known = of.samples[view] > 0 && between(p);
     set(out, view, known ? -std::log(p) * scale : no_value,
         known ? of.gap.standard_error[view] / p * scale : no_value);
@@ -96,12 +97,12 @@ Estimates effective_g(const Simulation& simulation, const Result& result, std::s
 
 Estimates effective_g_of_suns(const Simulation& simulation, const Result& result) {
   Estimates out;
-  const double leaves = leaf_area_m2(simulation.scene);
-  if (!simulation.scene.domain.periodic || !(leaves > 0)) return out;
-  const double per_lai = ground_area_m2(simulation.scene) / leaves;
+  const double area = intercepting_area_m2(simulation.scene);
+  if (!simulation.scene.domain.periodic || !(area > 0)) return out;
+  const double per_pai = ground_area_m2(simulation.scene) / area;
   out.resize(result.sun_gap.value.size());
   for (std::size_t sun = 0; sun < out.value.size(); ++sun) {
-    const double p = result.sun_gap.value[sun], scale = simulation.light.suns[sun].direction.z() * per_lai;
+    const double p = result.sun_gap.value[sun], scale = simulation.light.suns[sun].direction.z() * per_pai;
     set(out, sun, between(p) ? -std::log(p) * scale : no_value,
         between(p) ? result.sun_gap.standard_error[sun] / p * scale : no_value);
   }
@@ -110,10 +111,10 @@ Estimates effective_g_of_suns(const Simulation& simulation, const Result& result
 
 Estimates effective_gamma(const Simulation& simulation, const Result& result, std::size_t sensor) {
   Estimates out;
-  const double leaves = leaf_area_m2(simulation.scene);
-  if (!has_gaps(simulation, result, sensor) || !(leaves > 0)) return out;
+  const double area = intercepting_area_m2(simulation.scene);
+  if (!has_gaps(simulation, result, sensor) || !(area > 0)) return out;
   const SensorResult& of = result.sensors[sensor];
-  const double lai = leaves / ground_area_m2(simulation.scene);
+  const double pai = area / ground_area_m2(simulation.scene);
   const std::size_t suns = result.sun_gap.value.size(), bands = simulation.bands.written();
   const Origin origin = simulation.light.sky ? Origin::direct : Origin::total;
   out.value.assign(of.samples.size() * suns * bands, no_value);
@@ -130,7 +131,7 @@ Estimates effective_gamma(const Simulation& simulation, const Result& result, st
       if (of.samples[view] == 0 || !between(p_s) || !between(p_v)) continue;
       const double path = -std::log(both);
       const double factor =
-          simulation.light.suns[sun].direction.z() * view_cosine(of, view) / lai * path / (1 - both);
+          simulation.light.suns[sun].direction.z() * view_cosine(of, view) / pai * path / (1 - both);
       // d ln(factor) / d path, and d path = dP / P.
       const double slope = std::abs(1 / path - both / (1 - both));
       for (std::size_t band = 0; band < bands; ++band) {

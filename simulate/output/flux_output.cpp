@@ -35,19 +35,25 @@ std::vector<std::size_t> rows_with(const FluxResult& result, Flux flux) {
   return out;
 }
 
-void write_variable(const FluxResult& result, std::size_t origin, const std::vector<std::size_t>& rows,
-                    const std::vector<std::string>& dimensions, std::size_t bands, NetcdfWriter& file,
-                    const std::string& name, const std::string& words) {
+// Of these origins; more than one make the last dimension.
+void write_variable(const FluxResult& result, const std::vector<std::size_t>& origins,
+                    const std::vector<std::size_t>& rows, const std::vector<std::string>& dimensions,
+                    std::size_t bands, NetcdfWriter& file, const std::string& name,
+                    const std::string& words) {
   std::vector<double> value, error;
   for (const std::size_t row : rows)
-    for (std::size_t b = 0; b < bands; ++b) {
-      value.push_back(result.fraction[origin].value[row * bands + b]);
-      error.push_back(result.fraction[origin].standard_error[row * bands + b]);
-    }
+    for (std::size_t b = 0; b < bands; ++b)
+      for (const std::size_t origin : origins) {
+        value.push_back(result.fraction[origin].value[row * bands + b]);
+        error.push_back(result.fraction[origin].standard_error[row * bands + b]);
+      }
   file.variable(name, dimensions, value,
-                {{"units", "1"}, {"long_name", words}, {"ancillary_variables", name + "_se"}});
+                {{"units", "1"},
+                 {"long_name", words},
+                 {"coordinates", "wavelength"},
+                 {"ancillary_variables", name + "_se"}});
   file.variable(name + "_se", dimensions, error,
-                {{"units", "1"}, {"long_name", "standard error of " + words}});
+                {{"units", "1"}, {"long_name", "standard error of " + words}, {"coordinates", "wavelength"}});
 }
 
 }  // namespace
@@ -109,17 +115,18 @@ void write_fluxes(const Simulation& simulation, const FluxResult& result, Netcdf
       file.words(dimensions[0], dimensions[0], names, {{"long_name", kind.dimension}});
     }
     dimensions.emplace_back("band");
-    for (std::size_t o = 0; o < result.origins.size(); ++o)
-      write_variable(result, o, rows, dimensions, bands, file,
-                     prefix + kind.name + (o == 0 ? "" : std::string("_") + name_of(result.origins[o])),
-                     kind.words);
+    write_variable(result, {0}, rows, dimensions, bands, file, prefix + kind.name, kind.words);
+    if (result.origins.size() == 1) continue;
+    dimensions.emplace_back("origin");
+    write_variable(result, {0, 1, 2}, rows, dimensions, bands, file, prefix + kind.name + "_by_origin",
+                   std::string(kind.words) + ", of the power from each origin");
   }
   const std::vector<std::size_t> pixels = rows_with(result, Flux::ground_irradiance);
   if (pixels.empty()) return;
   file.dimension(prefix + "y", static_cast<std::size_t>(result.map_px[1]));
   file.dimension(prefix + "x", static_cast<std::size_t>(result.map_px[0]));
   write_variable(
-      result, 0, pixels, {prefix + "y", prefix + "x", "band"}, bands, file, prefix + "ground_irradiance",
+      result, {0}, pixels, {prefix + "y", prefix + "x", "band"}, bands, file, prefix + "ground_irradiance",
       "irradiance of the ground over that above the canopy; rows from the north, columns from the west");
 }
 

@@ -54,7 +54,8 @@ class SensorVariables {
     if (!result_.truncation.empty())
       file_.variable(
           prefix_ + "truncation_bias", with(views_, "band"), result_.truncation,
-          {{"long_name",
+          {{"units", "W m-2 sr-1 um-1"},
+           {"long_name",
             "radiance above max_order left out, estimated from the decay of the last two orders"}});
   }
 
@@ -109,6 +110,8 @@ class SensorVariables {
   void put(const std::string& name, const Words& dimensions, const std::vector<double>& value,
            const std::vector<double>& error, const std::string& what, const std::string& units) {
     Words coordinates = {"wavelength", prefix_ + "vza", prefix_ + "vaa"};
+    if (std::find(dimensions.begin(), dimensions.end(), "sun") != dimensions.end())
+      coordinates.insert(coordinates.end(), {"sun_zenith", "sun_azimuth"});
     std::string list;
     if (!result_.sensor->is_image())
       for (const std::string& word : coordinates) list += (list.empty() ? "" : " ") + word;
@@ -202,7 +205,8 @@ class SensorVariables {
     const std::string other = views_[0] + "_other";
     file_.dimension(other, result_.sensor->views());
     file_.variable(prefix_ + "covariance", {"band", views_[0], other}, result_.covariance,
-                   {{"long_name", "covariance of the radiance of views, which share paths"}});
+                   {{"units", "(" + std::string(light_quantity(*result_.sensor).units) + ")2"},
+                    {"long_name", "covariance of the radiance of views, which share paths"}});
   }
 
   void write_fractions() {
@@ -239,7 +243,7 @@ class SensorVariables {
     put_derived("overlap", by_sun, overlap_function(simulation_, whole_, number_),
                 "overlap function P(s,v) - P(s) P(v)");
     put_derived("effective_g", views_, effective_g(simulation_, whole_, number_),
-                "effective projection of leaf area towards the sensor, from the gap fraction");
+                "effective projection of intercepting area towards the sensor, from the gap fraction");
     put_derived("effective_gamma", with(by_sun, "band"), effective_gamma(simulation_, whole_, number_),
                 "effective area scattering phase function, of a turbid medium with the same gaps");
     if (!whole_.diffuse_fraction.empty())
@@ -316,7 +320,7 @@ void write_common_derived(NetcdfWriter& file, const Simulation& simulation, cons
   };
   put("sun_gap", result.sun_gap, "gap probability towards the sun");
   put("sun_effective_g", effective_g_of_suns(simulation, result),
-      "effective projection of leaf area towards the sun, from the gap probability");
+      "effective projection of intercepting area towards the sun, from the gap probability");
   if (!result.diffuse_fraction.empty())
     file.variable("diffuse_fraction", {"band"}, result.diffuse_fraction,
                   {{"units", "1"}, {"long_name", "diffuse fraction of the irradiance that was asked for"}});

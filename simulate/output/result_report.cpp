@@ -21,6 +21,21 @@ Json angle_of(const Sun* sun, bool zenith) {
   return zenith ? sun->zenith_deg : sun->azimuth_deg;
 }
 
+// Bands that have curves over the views: all of a few; of many those nearest to green, red and infrared.
+std::vector<std::size_t> shown_bands(const Bands& bands) {
+  std::vector<std::size_t> out;
+  for (std::size_t band = 0; band < bands.written() && bands.written() <= split_bands; ++band)
+    out.push_back(band);
+  if (!out.empty()) return out;
+  for (const double nm : {550.0, 670.0, 850.0, 1650.0}) {
+    std::size_t nearest = 0;
+    for (std::size_t band = 1; band < bands.written(); ++band)
+      if (std::abs(bands.written_nm(band) - nm) < std::abs(bands.written_nm(nearest) - nm)) nearest = band;
+    if (std::find(out.begin(), out.end(), nearest) == out.end()) out.push_back(nearest);
+  }
+  return out;
+}
+
 struct Curve {
   Json vza = Json::array(), vaa = Json::array(), value = Json::array(), error = Json::array();
 };
@@ -61,11 +76,11 @@ Json series_of(const Sun* sun, const SensorResult& result, const std::string& qu
 void add_series(const Simulation& simulation, const SensorResult& result, Json& out) {
   const std::size_t bands = simulation.bands.written(), materials = simulation.materials.size();
   constexpr int orders_shown = 10;
-  for (std::size_t p = 0; p < result.parts.size() && bands <= split_bands; ++p) {
+  for (std::size_t p = 0; p < result.parts.size(); ++p) {
     const Part& part = result.parts[p];
     if (part.order > orders_shown) continue;
     const std::vector<double> scale = reflectance_scale(simulation, part.origin, part.sun);
-    for (std::size_t band = 0; band < bands; ++band)
+    for (const std::size_t band : shown_bands(simulation.bands))
       out.push_back(series_of(sun_of(simulation.light, part), result,
                               reflectance_quantity(simulation.light, *result.sensor).name, band + 1,
                               wavelength(simulation.bands, band), &part, nullptr,
@@ -128,12 +143,12 @@ void add_derived_series(const Simulation& simulation, const Result& whole, std::
     const Sun* sun = &simulation.light.suns[s];
     add("bidirectional_gap", sun, result.sunlit_ground, suns, s, -1);
     add("overlap", sun, overlap, suns, s, -1);
-    for (std::size_t b = 0; b < bands && bands <= split_bands; ++b)
+    for (const std::size_t b : shown_bands(simulation.bands))
       add("effective_gamma", sun, gamma, suns * bands, s * bands + b, static_cast<int>(b));
   }
-  if (whole.diffuse_fraction.empty() || bands > split_bands) return;
+  if (whole.diffuse_fraction.empty()) return;
   const Estimates recombined = recombined_reflectance(simulation, result, whole.diffuse_fraction);
-  for (std::size_t b = 0; b < bands; ++b)
+  for (const std::size_t b : shown_bands(simulation.bands))
     add(recombined_name(simulation.light, *result.sensor), sun_of(simulation.light), recombined, bands, b,
         static_cast<int>(b));
 }
@@ -154,7 +169,8 @@ Json rings_of(const Sensor& sensor) {
 
 void add_orders(const Simulation& simulation, const SensorResult& result, Json& out) {
   const std::vector<OrderDecay> decays = order_decay(simulation, result);
-  for (std::size_t band = 0; band < decays.size() && decays.size() <= split_bands; ++band) {
+  for (const std::size_t band : shown_bands(simulation.bands)) {
+    if (band >= decays.size()) continue;
     const OrderDecay& decay = decays[band];
     out.push_back({{"sensor", result.sensor->name},
                    {"quantity", reflectance_quantity(simulation.light, *result.sensor).name},

@@ -1,5 +1,7 @@
 #include "tests/materials/lobe_checks.h"
 
+#include <algorithm>
+
 #include "core/random.h"
 
 namespace bpms::test {
@@ -70,6 +72,7 @@ class LobeCheck {
       EXPECT_LT(rest_seen, rest_expected + 5 * std::sqrt(rest_expected) + 5);
     }
     ASSERT_GT(dof, 5);
+    seen_.chi_square = sum, seen_.freedom = dof;
     EXPECT_GT(chi_square_above(sum, dof), significance) << "chi-square " << sum << " over " << dof;
   }
 
@@ -98,6 +101,7 @@ class LobeCheck {
       const double error = std::sqrt((squares[band] / draws - mean * mean) / draws);
       EXPECT_NEAR(mean, albedo[band], 4 * error + 2e-4 * albedo[band]) << "band " << band;
       EXPECT_LE(albedo[band], limits.largest_albedo) << "band " << band;
+      seen_.largest_albedo = std::max(seen_.largest_albedo, albedo[band]);
       if (std::getenv("BPMS_TELL_WEIGHTS") != nullptr)
         fmt::print("    albedo {:.4f} +- {:.4f}, sd of weights / albedo {:.3f}, largest {:.2f}\n", mean,
                    error, error * std::sqrt(draws) / mean, largest);
@@ -117,10 +121,18 @@ class LobeCheck {
       };
       const std::vector<double> one = values_of(lobe_, view_, light, bands_);
       const std::vector<double> other = values_of(lobe_, turned(light), turned(view_), bands_);
-      for (std::size_t band = 0; band < bands_; ++band)
+      for (std::size_t band = 0; band < bands_; ++band) {
         ASSERT_NEAR(one[band], other[band], 2e-4 * one[band] + 1e-7);  // narrow lobes magnify float rounding
+        if (one[band] > 1e-3)
+          seen_.exchanged = std::max(seen_.exchanged, std::abs(other[band] / one[band] - 1));
+      }
     }
   }
+
+  struct Seen {
+    double chi_square = 0, freedom = 0, largest_albedo = 0, exchanged = 0;
+  };
+  const Seen& seen() const { return seen_; }
 
  private:
   static constexpr int zeniths = 16, azimuths = 32, fine = 24;
@@ -153,6 +165,7 @@ class LobeCheck {
   std::size_t bands_;
   Eigen::Vector3f view_;
   Philox random_;
+  Seen seen_;
 };
 
 }  // namespace
@@ -162,6 +175,8 @@ void check_lobe(const std::string& what, const SurfaceLobe& lobe, std::size_t ba
   ASSERT_FALSE(lobe.lobe->is_delta());
   EXPECT_EQ(lobe.lobe->reciprocal(), limits.reciprocal);
   std::uint64_t seed = 1;
+  static int lobes = 0;  // of the program: properties of a test need names of their own
+  ++lobes;
   for (const double view_deg : views_deg) {
     SCOPED_TRACE(fmt::format("{}, view at {} degrees", what, view_deg));
     if (std::getenv("BPMS_TELL_WEIGHTS") != nullptr) fmt::print("  {} {}\n", what, view_deg);
@@ -169,6 +184,14 @@ void check_lobe(const std::string& what, const SurfaceLobe& lobe, std::size_t ba
     check.draws_its_pdf();
     check.weighs_its_albedo(limits);
     if (limits.reciprocal) check.exchanges_sun_and_view();
+    // For validation/run: lobe, view, chi-square, degrees of freedom, albedo, change by exchange.
+    std::string words = what;
+    std::replace(words.begin(), words.end(), '\n', ' ');
+    ::testing::Test::RecordProperty(
+        fmt::format("lobe_{}_{}", lobes, view_deg),
+        fmt::format("{}|{}|{}|{}|{}|{}", words, view_deg, check.seen().chi_square, check.seen().freedom,
+                    check.seen().largest_albedo,
+                    limits.reciprocal ? fmt::format("{}", check.seen().exchanged) : ""));
   }
 }
 

@@ -101,7 +101,7 @@ TEST(WaxyLeaf, DrawsWhatItSays) {
     for (const std::string& facets : {ggx, beckmann, std::string("roughness = 0.1\n")}) {
       const Material waxy = material_of(leaf + index + facets, {600, 700});
       ASSERT_EQ(waxy.lobes.size(), 5u);  // shine; reflection and transmission of both faces
-      const std::string what = index + facets;
+      const std::string what = "waxy leaf " + index + facets;
       // F of steep facets is above the mean, and at 75 degrees a third of the draws goes below the horizon.
       check_lobe(what, waxy.lobes[0], 2, {.largest_weight = 5});
       check_lobe(what + " reflected", waxy.lobes[1], 2, {.largest_weight = 1.3});

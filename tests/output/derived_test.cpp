@@ -1,4 +1,5 @@
-// What follows from a result, against closed forms and against the spread of repeated runs.
+// What follows from a result, against the spread of repeated runs and the result itself. Closed forms:
+// drawings_test.cpp.
 #include "simulate/output/derived.h"
 
 #include <gtest/gtest.h>
@@ -21,74 +22,6 @@ Simulation canopy(const TemporaryFolder& folder, const std::string& samples, con
   text.sensor = views("[[30, 90], [50, 180], [40, 0]]");  // far from the hot spot twice, and in it
   text.sampling = "samples = " + samples;
   return simulation_of(folder, text);
-}
-
-// exp(-G LAI / mu); the discs of one drawing have gaps of their own, which differ from those of all drawings
-// by sqrt(P (1 - P) a / A') or so: a disc's area over the cell's, the canopy's correlation area.
-double drawing_error(double p) {
-  const double disc = pi * small_discs.radius_m * small_discs.radius_m, cell = 4;
-  return 2 * std::sqrt(p * (1 - p) * disc / cell);
-}
-
-TEST(Derived, GapTowardsTheSunIsThatOfRandomDiscs) {
-  const TemporaryFolder folder;
-  const Result result = simulate(canopy(folder, "64"), 1);
-  const double expected = std::exp(-0.5 * lai / std::cos(radians(sza_deg)));
-  ASSERT_EQ(result.sun_gap.value.size(), 1u);
-  EXPECT_NEAR(result.sun_gap.value[0], expected,
-              4 * std::hypot(result.sun_gap.standard_error[0], drawing_error(expected)));
-  EXPECT_LT(result.sun_gap.standard_error[0], 0.003);
-}
-
-TEST(Derived, OverlapIsNoneFarFromTheHotSpotAndTheWholeVarianceInIt) {
-  const TemporaryFolder folder;
-  const Simulation simulation = canopy(folder, "65536");
-  const Result result = simulate(simulation, 1);
-  const Estimates overlap = overlap_function(simulation, result, 0);
-  ASSERT_EQ(overlap.value.size(), 3u);
-  const double p_s = result.sun_gap.value[0];
-  for (const std::size_t view : {0u, 1u}) {
-    const double p_v = result.sensors[0].gap.value[view];
-    EXPECT_NEAR(overlap.value[view], 0.0,
-                4 * std::hypot(overlap.standard_error[view], drawing_error(p_v * p_s)));
-  }
-  // In the hot spot what is seen is sunlit: P(s, v) = P(v) = P(s).
-  EXPECT_NEAR(overlap.value[2], p_s * (1 - p_s), 4 * overlap.standard_error[2]);
-}
-
-TEST(Derived, EffectiveGIsOneHalfForSphericalLeaves) {
-  const TemporaryFolder folder;
-  const Simulation simulation = canopy(folder, "65536");
-  const Result result = simulate(simulation, 2);
-  // To the rounding of the number of discs: one disc of some 4800.
-  EXPECT_NEAR(leaf_area_m2(simulation.scene) / 4, lai, 1e-3);
-  const Estimates g = effective_g(simulation, result, 0), of_sun = effective_g_of_suns(simulation, result);
-  for (std::size_t view = 0; view < 3; ++view) {
-    const double p = result.sensors[0].gap.value[view];
-    const double mu = std::cos(radians(simulation.sensors[0]->vza_deg(view)));
-    EXPECT_NEAR(g.value[view], 0.5, 4 * std::hypot(g.standard_error[view], drawing_error(p) / p * mu / lai));
-  }
-  EXPECT_NEAR(of_sun.value[0], g.value[2], 4 * std::hypot(of_sun.standard_error[0], g.standard_error[2]));
-}
-
-// Gamma = (rho + tau) / (3 pi) (sin b - b cos b) + tau / 3 cos b, b between the directions of propagation
-// (Ross 1981). At 90 degrees from the sun the hot spot of small discs is below what the
-// test can tell.
-TEST(Derived, EffectiveGammaIsThatOfSphericalLeaves) {
-  const TemporaryFolder folder;
-  const Simulation simulation = canopy(folder, "262144");
-  const Result result = simulate(simulation, 1);
-  const Estimates gamma = effective_gamma(simulation, result, 0);
-  const Eigen::Vector3d sun = simulation.light.suns[0].direction;
-  const std::size_t view = 1;  // 90 degrees from the sun
-  const Eigen::Vector3d sensor = direction_from_angles(radians(50), radians(180), simulation.scene.domain);
-  const double b = std::acos(-sun.dot(sensor));
-  const double expected = 0.9 / (3 * pi) * (std::sin(b) - b * std::cos(b)) + 0.4 / 3 * std::cos(b);
-  const double p = result.sensors[0].gap.value[view];
-  EXPECT_NEAR(gamma.value[view], expected,
-              4 * std::hypot(gamma.standard_error[view], expected * drawing_error(p) / p));
-  // What the test can tell, most of it the gaps of one drawing (5 % of P): better than a tenth.
-  EXPECT_LT(std::hypot(gamma.standard_error[view], expected * drawing_error(p) / p), 0.1 * expected);
 }
 
 // Standard errors against the spread of 40 runs: its own relative error is 1 / sqrt(2 * 39) = 11 %. The

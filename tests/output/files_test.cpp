@@ -1,7 +1,6 @@
 // ENVI cubes and files of the RAMI On-line Model Checker, read back.
 #include <gmock/gmock.h>
 
-#include <cstdio>
 #include <cstring>
 #include <set>
 #include <sstream>
@@ -10,20 +9,13 @@
 #include "simulate/output/envi.h"
 #include "simulate/output/output.h"
 #include "simulate/output/romc_files.h"
+#include "tests/output/said_by.h"
 #include "tests/simulate/scene_text.h"
 
 namespace bpms::test {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string said_by(const std::string& command) {
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::string out;
-  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) out += static_cast<char>(c);
-  pclose(pipe);
-  return out;
-}
 
 float pixel_of(const EnviCube& cube, std::size_t index) {
   float out = 0;

@@ -1,7 +1,5 @@
-// Files as others read them.
+// The CSV and the report as others read them. NetCDF in xarray: tests/output/xarray_test.cpp.
 #include <gmock/gmock.h>
-
-#include <cstdio>
 
 #include "core/csv.h"
 #include "simulate/output/output.h"
@@ -15,14 +13,6 @@ const SceneText three_views{.soil = lambertian("[[400, 0.1], [900, 0.3]]"),
                             .sensor = principal_plane("[-30, 0, 30]"),
                             .wavelengths_nm = "[650, 850]",
                             .sampling = "samples = 64"};
-
-std::string output_of(const std::string& command) {
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::string out;
-  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) out += static_cast<char>(c);
-  pclose(pipe);
-  return out;
-}
 
 TEST(Output, CsvHasTheColumnsOfTheContract) {
   const TemporaryFolder folder;
@@ -44,50 +34,6 @@ TEST(Output, CsvHasTheColumnsOfTheContract) {
   EXPECT_EQ(totals, 6);
 }
 
-// What a Python program says of out.nc, opened in xarray as d.
-class NetcdfInXarray : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (output_of("/usr/bin/python3 -c 'import xarray, netCDF4; print(1)'") == "1\n") return;
-    if (data_required()) FAIL() << "python3-xarray, python3-netcdf4 are absent: run scripts/setup";
-    GTEST_SKIP() << "needs python3-xarray, python3-netcdf4";
-  }
-  std::string said(const std::string& expressions) const {
-    return output_of("/usr/bin/python3 -c 'import xarray as x; d = x.open_dataset(\"" + folder_ / "out.nc" +
-                     "\"); print(" + expressions + ")'");
-  }
-  TemporaryFolder folder_;
-};
-
-TEST_F(NetcdfInXarray, HasNamedCoordinates) {
-  const Simulation scene = simulation_of(folder_, three_views);
-  write_netcdf(scene, simulate(scene, 1), {"bpms simulate", 1, {}}, folder_ / "out.nc", {});
-  EXPECT_EQ(said("d.brf.dims, d.brf.shape, sorted(d.brf.coords), d.vza.units, d.wavelength.units, "
-                 "[float(v) for v in d.vza.values], round(float(d.brf[1, 0]), 5), "
-                 "float(d.brf_se[1, 0]) < 1e-6, d.attrs[\"stopped_by\"], d.brf_by_component.dims"),
-            "('view', 'band') (3, 2) ['vaa', 'vza', 'wavelength'] degree nm [-30.0, 0.0, 30.0] 0.2 True "
-            "samples ('view', 'band', 'component')\n");
-}
-
-// Two images whose names are one when written as variables; by origin only when asked for.
-TEST_F(NetcdfInXarray, HoldsImagesInSinglePrecision) {
-  SceneText text = three_views;
-  text.sky = white_sky;
-  const std::string rest =
-      "type = \"perspective\"\nlocation = [0, 0, 3]\nlook_at = [0.1, 0, 0]\nfov_deg = 20\nwidth_px = "
-      "3\nheight_px = 2\n";
-  text.sensor = "name = \"my camera\"\n" + rest + "[[sensors]]\nname = \"my-camera\"\n" + rest;
-  const Simulation scene = simulation_of(folder_, text);
-  const Result result = simulate(scene, 1);
-  write_netcdf(scene, result, {"bpms simulate", 1, {}}, folder_ / "out.nc", {});
-  const std::string about =
-      "d.my_camera_radiance.dtype, d.my_camera_radiance.shape, \"my_camera_2_radiance_se\" in d, "
-      "\"my_camera_radiance_by_origin\" in d";
-  EXPECT_EQ(said(about), "float32 (2, 3, 2) True False\n");
-  write_netcdf(scene, result, {"bpms simulate", 1, {}}, folder_ / "out.nc", {true, true});
-  EXPECT_EQ(said(about), "float32 (2, 3, 2) True True\n");
-}
-
 TEST(Output, ReportHasTheKeysOfTheContract) {
   const TemporaryFolder folder;
   const Simulation scene = simulation_of(folder, three_views);
@@ -98,6 +44,23 @@ TEST(Output, ReportHasTheKeysOfTheContract) {
   EXPECT_EQ(report["samples"], 3 * 64);
   EXPECT_EQ(report["seed"], 3);
   EXPECT_EQ(report["series"][0]["vza_deg"].size(), 3u);
+}
+
+// Of many bands those nearest to 550, 670, 850 and 1650 nm have curves over the views; every view a spectrum.
+TEST(Output, ReportDrawsAFewOfManyBandsOverTheViews) {
+  const TemporaryFolder folder;
+  SceneText text = three_views;
+  text.wavelengths_nm = "[400, 450, 500, 540, 600, 650, 700, 750, 800, 900]";
+  const Simulation scene = simulation_of(folder, text);
+  const Json report = result_report(scene, simulate(scene, 3));
+  std::vector<double> nm;
+  for (const Json& series : report["series"])
+    if (series["quantity"] == "brf" && series["origin"] == "total" && series["component"] == "all" &&
+        series["order"].is_null())
+      nm.push_back(series["wavelength_nm"]);
+  EXPECT_THAT(nm, ::testing::ElementsAre(540, 650, 800, 900));  // 850: the first of two as near
+  EXPECT_EQ(report["spectra"].size(), 3u);
+  EXPECT_EQ(report["spectra"][0]["wavelength_nm"].size(), 10u);
 }
 
 }  // namespace

@@ -110,7 +110,9 @@ export function orders(r: Simulate, s: Section): void {
   const several = bands.length > 1 && bands.some((b) => b.series.some((x) => x.vza_deg.length > 0));
   const atNadir: Choice = { label: "all bands at the view nearest to nadir", spec: () => ({ height: 400, data: orderBars(chosen, nearest), layout: layout("band") }) };
   const choices = [...bands.filter((b) => b.series.some((x) => x.vza_deg.length > 1)).map(byAngle).reverse(), ...(several ? [atNadir] : [])];
-  s.plot("orders", choices.length > 0 ? choices : [atNadir], `Contribution of each order of scattering, stacked; orders above ${Math.max(...chosen.map((x) => x.order ?? 0))} are not shown.`);
+  const last = Math.max(...chosen.map((x) => x.order ?? 0));
+  const rest = r.orders.some((row) => row.value.length === last) ? `the last, ${last}, holds all higher ones` : `orders above ${last} are not shown`;
+  s.plot("orders", choices.length > 0 ? choices : [atNadir], `Contribution of each order of scattering, stacked; ${rest}.`);
 }
 
 export function fractions(r: Simulate, s: Section): void {

@@ -8,16 +8,32 @@ import { axisTitle, type Trace } from "../plot";
 import { bandLine } from "./errorbars";
 import { quantityName } from "./reflectance";
 
+// Of many views a few tell the story: spread evenly over each sensor's list, with the one nearest to nadir.
+const mostOfSensor = 6;
+
+function chosen<T extends { sensor: string | null; vza_deg: number | null }>(all: readonly T[]): T[] {
+  const sensors = [...new Set(all.map((x) => x.sensor))];
+  return sensors.flatMap((sensor) => {
+    const own = all.filter((x) => x.sensor === sensor);
+    if (own.length <= mostOfSensor) return own;
+    const steps = mostOfSensor - 2;
+    const picked = new Set(Array.from({ length: steps + 1 }, (_, i) => Math.round((i * (own.length - 1)) / steps)));
+    const steepest = own.reduce((best, x, i) => (Math.abs(x.vza_deg ?? 90) < Math.abs(own[best]?.vza_deg ?? 90) ? i : best), 0);
+    return own.filter((_, i) => picked.has(i) || i === steepest);
+  });
+}
+
 export function spectra(r: Simulate, s: Section): void {
   const shown = r.spectra.filter((x) => x.wavelength_nm.length > 1);
   const quantities = [...new Set(shown.map((x) => x.quantity))];
   for (const quantity of quantities) {
-    const data = shown
-      .filter((x) => x.quantity === quantity)
+    const all = shown.filter((x) => x.quantity === quantity);
+    const drawn = chosen(all);
+    const data = drawn
       .flatMap((x, i): Trace[] => {
         const parts = [
           x.sensor,
-          x.vza_deg === null ? null : `view ${significant(x.vza_deg, 3)}°`,
+          x.vza_deg === null ? null : `view ${significant(x.vza_deg, 3)}°${x.vaa_deg === null ? "" : ` / ${significant(x.vaa_deg, 3)}°`}`,
           x.sza_deg === null ? null : `sun ${significant(x.sza_deg, 3)}°`,
         ];
         const name = parts.filter((p) => p !== null).join(", ") || `spectrum ${i + 1}`;
@@ -30,7 +46,8 @@ export function spectra(r: Simulate, s: Section): void {
         data,
         layout: { xaxis: { title: axisTitle("wavelength (nm)") }, yaxis: { title: axisTitle(quantityName(quantity)), rangemode: "tozero" }, showlegend: true },
       },
-      `Spectrum of the ${quantityName(quantity)} with its band of ±1.96 standard errors.`,
+      `Spectrum of the ${quantityName(quantity)} with its band of ±1.96 standard errors; views by zenith and azimuth.` +
+        (drawn.length < all.length ? ` Of ${all.length} views ${drawn.length} are drawn.` : ""),
     );
   }
 }
