@@ -10,6 +10,7 @@
 
 #include "simulate/forward/flux_options.h"
 #include "simulate/light/light.h"
+#include "simulate/sensors/flux_sensor.h"
 #include "simulate/materials/material.h"
 #include "simulate/sensors/sensor.h"
 
