@@ -8,6 +8,7 @@
 #include "simulate/forward/choose_mode.h"
 #include "simulate/forward/forward.h"
 #include "simulate/forward/shared_views.h"
+#include "simulate/memory_limit.h"
 #include "simulate/output/sun_gap.h"
 #include "simulate/transport/schedule.h"
 
@@ -28,7 +29,9 @@ void require_free(const Sensor& sensor, const Intersector& intersector, const Ex
 
 Result simulate(const Simulation& simulation, std::uint64_t seed) {
   const auto start = std::chrono::steady_clock::now();
-  const Intersector intersector(simulation.scene);
+  IntersectorOptions options;
+  options.most_bytes = simulation.most_bytes;
+  const Intersector intersector(simulation.scene, options);
   Result out = simulate(simulation, intersector, seed);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
@@ -49,6 +52,7 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
   out.threads = threads();
   if (std::any_of(simulation.sensors.begin(), simulation.sensors.end(),
                   [](const auto& sensor) { return sensor->type == "brf"; }))
+  require_memory(simulation, stage);
     out.sun_gap = sun_gap(simulation.light, intersector, seed);
   Progress progress("paths", 0);
   bool out_of_time = false, out_of_samples = false;

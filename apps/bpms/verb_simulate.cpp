@@ -8,6 +8,7 @@
 #include "core/atomic_file.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
+#include "core/units.h"
 #include "simulate/output/derived.h"
 #include "simulate/output/envi.h"
 #include "simulate/output/output.h"
@@ -23,7 +24,7 @@ struct SimulateArguments {
   std::uint64_t samples = 0;
   bool image_origins = false;
   bool keep_interactions = false;
-  std::string envi, romc, diffuse_fraction;
+  std::string envi, romc, diffuse_fraction, memory;
 };
 
 // A picture beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
@@ -119,6 +120,7 @@ void run(const Cli& cli, const SimulateArguments& options) {
   for (const std::string& line : simulation.scene.notes) note(line);
   const std::vector<double> fraction = diffuse_fraction(options.diffuse_fraction, simulation);
   Provenance from = provenance(cli, true);
+  if (!options.memory.empty()) simulation.most_bytes = parse_bytes(options.memory, {"--memory"});
   if (simulation.inputs.empty() || simulation.inputs.front() != options.scene) from.add_input(options.scene);
   for (const std::string& input : simulation.inputs) from.add_input(input);
 
@@ -157,6 +159,8 @@ void add_simulate(Cli& cli) {
                    "image cubes with headers as ENVI reads them: PREFIX_SENSOR.img, or FOLDER/");
   verb->add_option(
       "--romc", options->romc,
+  verb->add_option("--memory", options->memory,
+                   "refuse what needs more for the traced scene and the results: 4GiB");
       "files of the RAMI On-line Model Checker: EXPERIMENT makes brfpp_bpms-EXPERIMENT.mes and so on");
   verb->add_option("--diffuse-fraction", options->diffuse_fraction,
                    "reflectance at this diffuse fraction of the irradiance too: 0.2, or a spectrum's file");

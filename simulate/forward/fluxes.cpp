@@ -176,3 +176,19 @@ const char* name_of(Flux flux) {
 }
 
 }  // namespace bpms
+std::uint64_t flux_bytes(const Simulation& simulation, const FluxOptions& options) {
+  std::uint64_t rows =
+      static_cast<std::uint64_t>(Flux::absorbed_material) + simulation.materials.size() +
+      static_cast<std::uint64_t>(options.layers) + options.layers_m.size() +
+      static_cast<std::uint64_t>(options.map_px[0]) * static_cast<std::uint64_t>(options.map_px[1]);
+  if (options.plants) rows += simulation.scene.instances.size();
+  if (options.organs)
+    for (const Prototype& prototype : simulation.scene.prototypes)
+      rows += prototype.mesh ? prototype.mesh->organs.size() : 0;
+  const std::uint64_t sources = simulation.light.suns.size() + (simulation.light.sky ? 1 : 0),
+                      width = (simulation.bands.count() + 7) / 8 * 8;
+  constexpr std::uint64_t most_origins = 3;
+  return rows * (sizeof(FluxRow) + sources * batches * width * sizeof(double) +
+                 most_origins * simulation.bands.written() * 2 * sizeof(double));
+}
+

@@ -53,4 +53,7 @@ struct FluxResult {
 FluxResult trace_fluxes(const Simulation& simulation, const Intersector& intersector, std::uint64_t seed,
                         const FluxOptions& options = {});
 
+// What the sums and the result of these fluxes take, in bytes; before they are made.
+std::uint64_t flux_bytes(const Simulation& simulation, const FluxOptions& options);
+
 }  // namespace bpms
