@@ -52,25 +52,27 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
         ErrorKind::bad_input, {},
         "interactions cannot be counted here: a surface or the sky has another shape in each band, bands are "
         "sampled, or shadows are attenuated");
+  require_memory(simulation, stage);
   for (const auto& sensor : simulation.sensors) require_free(*sensor, intersector, stage.extent);
   Result out;
   out.seed = seed;
   out.threads = threads();
   if (std::any_of(simulation.sensors.begin(), simulation.sensors.end(),
                   [](const auto& sensor) { return sensor->type == "brf"; }))
-  require_memory(simulation, stage);
     out.sun_gap = sun_gap(simulation.light, intersector, seed);
   Progress progress("paths", 0);
   bool out_of_time = false, out_of_samples = false;
   const std::size_t sensors = simulation.sensors.size() + simulation.fluxes.size();
+  // Each sensor gets an equal part of the time, and what those before it left.
+  const auto deadline_of = [&](std::size_t sensor) {
+    if (!(simulation.sampling.max_seconds > 0)) return Clock::time_point::max();
+    const double share = static_cast<double>(sensor + 1) / static_cast<double>(sensors);
+    return start + std::chrono::duration_cast<Clock::duration>(
+                       std::chrono::duration<double>(simulation.sampling.max_seconds * share));
+  };
   for (std::size_t s = 0; s < simulation.sensors.size() && !interrupted(); ++s) {
     const Sensor& sensor = *simulation.sensors[s];
-    Run run{&stage, seed, static_cast<std::uint32_t>(s), Clock::time_point::max(), false, false, &progress};
-    if (simulation.sampling.max_seconds > 0) {
-      const double share = static_cast<double>(s + 1) / static_cast<double>(sensors);
-      run.deadline = start + std::chrono::duration_cast<Clock::duration>(
-                                 std::chrono::duration<double>(simulation.sampling.max_seconds * share));
-    }
+    Run run{&stage, seed, static_cast<std::uint32_t>(s), deadline_of(s), false, false, &progress};
     const Mode mode =
         choose_mode(simulation.sampling.mode, simulation, sensor, simulation.sampling.mode_where);
     if (mode == Mode::forward) {
@@ -89,12 +91,13 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
     out_of_time = out_of_time || run.out_of_time;
     out_of_samples = out_of_samples || run.out_of_samples;
   }
-  for (const FluxSensor& flux : simulation.fluxes) {
-    if (interrupted()) break;
-    const FluxResult result = trace_fluxes(simulation, intersector, seed, flux.options);
+  for (std::size_t f = 0; f < simulation.fluxes.size() && !interrupted(); ++f) {
+    const FluxResult result = trace_fluxes(simulation, intersector, seed, simulation.fluxes[f].options,
+                                           deadline_of(simulation.sensors.size() + f));
     out.samples += result.samples;
     out.rays += result.rays;
     out_of_samples = out_of_samples || result.stopped_by == "max_samples";
+    out_of_time = out_of_time || result.stopped_by == "max_seconds";
     out.fluxes.push_back(std::make_shared<const FluxResult>(result));
   }
   out.seconds = std::chrono::duration<double>(Clock::now() - start).count();

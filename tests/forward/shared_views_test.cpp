@@ -130,6 +130,26 @@ TEST(SharedViews, AreTheReverseModesUnderTwoSuns) {
     EXPECT_LT(std::abs(z_of(forward.result.sunlit_ground, i, reverse.sunlit_ground, i)), 4.5);
 }
 
+// A disc of 12 degrees, as no sun has it, and a sky that is bright on one side.
+TEST(SharedViews, AreTheReverseModesUnderADiscAndASkyMap) {
+  const TemporaryFolder folder;
+  SceneText scene = lit_canopy(folder);
+  scene.sensor = views("[[0, 0], [40, 100], [60, 10]]");
+  scene.sampling = "samples = 65536";
+  Simulation simulation = simulation_of(folder, scene);
+  simulation.light.suns[0].radius = 0.21;
+  constexpr std::size_t zeniths = 10, azimuths = 12, bands = 2;
+  std::vector<float> radiance;
+  for (std::size_t row = 0; row < zeniths; ++row)
+    for (std::size_t column = 0; column < azimuths; ++column)
+      for (std::size_t band = 0; band < bands; ++band)
+        radiance.push_back(column < azimuths / 2 ? 2.0f + static_cast<float>(band) : 0.5f);
+  simulation.light.sky->map = std::make_shared<SkyMap>(zeniths, azimuths, bands, radiance);
+  simulation.light.sky->radiance = simulation.light.sky->map->irradiance();
+  for (double& of : simulation.light.sky->radiance) of /= 3.14159265358979;
+  expect_the_reverse_mode(simulation);
+}
+
 TEST(SharedViews, BareGroundIsAsItIs) {
   const TemporaryFolder folder;
   SceneText scene;
