@@ -109,9 +109,10 @@ void write_fluxes(const Simulation& simulation, const FluxResult& result, Netcdf
       file.words(dimensions[0], dimensions[0], names, {{"long_name", kind.dimension}});
     }
     dimensions.emplace_back("band");
+    // Not transmitted + _direct: that is the name of another flux.
     for (std::size_t o = 0; o < result.origins.size(); ++o)
       write_variable(result, o, rows, dimensions, bands, file,
-                     prefix + kind.name + (o == 0 ? "" : std::string("_") + name_of(result.origins[o])),
+                     prefix + kind.name + (o == 0 ? "" : std::string("_of_") + name_of(result.origins[o])),
                      kind.words);
   }
   const std::vector<std::size_t> pixels = rows_with(result, Flux::ground_irradiance);
@@ -142,8 +143,11 @@ Json flux_report(const Simulation& simulation, const FluxSensor& sensor, const F
                       {"value", value},
                       {"standard_error", error}});
     }
+  Json nm = Json::array();
+  for (std::size_t b = 0; b < bands; ++b) nm.push_back(json_number(simulation.bands.written_nm(b)));
   return {{"name", sensor.name},
           {"type", "flux"},
+          {"wavelength_nm", nm},
           {"samples", result.samples},
           {"rays", result.rays},
           {"rows", rows},
