@@ -3,7 +3,7 @@
 import type { Choice, Section } from "../book";
 import type { Fluxes, Simulate } from "../data";
 import { fixed } from "../format";
-import { bandColour, ink, materialColour } from "../palette";
+import { bandColour, ink, materialColour, orderColour } from "../palette";
 import { axisTitle, type PlotSpec, type Trace } from "../plot";
 import { z95 } from "./errorbars";
 
@@ -11,6 +11,7 @@ type Row = Fluxes["rows"][number];
 const skyColour = "#8fb4dc";
 const lostColour = "#c4c9d0";
 const mostOrgans = 30;
+const mostBands = 8; // side by side
 
 const whole = (f: Fluxes, flux: string): Row[] => f.rows.filter((x) => x.flux === flux && (x.origin ?? "total") === "total");
 
@@ -53,7 +54,7 @@ export function balance(r: Simulate, f: Fluxes): PlotSpec {
   for (const x of transmitted.filter((t) => !gone.includes(t)))
     data.push({
       type: "scatter", mode: "markers", name: "transmitted (arrives at the ground)", x: bands, y: x.value, error_y: errors(x),
-      marker: { color: ink, size: 9, symbol: "diamond-open", line: { width: 1.6 } }, hovertemplate: "transmitted: %{y:.4f}<extra></extra>",
+      marker: { color: "#ffffff", size: 9, symbol: "diamond", line: { color: ink, width: 1.4 } }, hovertemplate: "transmitted: %{y:.4f}<extra></extra>",
     }); // prettier-ignore
   return {
     height: 400,
@@ -69,12 +70,21 @@ export function balance(r: Simulate, f: Fluxes): PlotSpec {
   };
 }
 
+// So many of the numbers 0 ... count - 1, evenly.
+function spread(count: number, most: number): number[] {
+  if (count <= most) return Array.from({ length: count }, (_, i) => i);
+  return Array.from({ length: most }, (_, i) => Math.round((i * (count - 1)) / (most - 1)));
+}
+
 // A profile or a ranking: horizontal bars, a colour for each band.
 export function parts(r: Simulate, f: Fluxes, rows: Row[], axis: string): PlotSpec {
   const bands = bandsOf(r, f);
   const names = rows.map((x) => x.of ?? "");
-  const data = bands.map((band, b): Trace => {
-    const colour = bandColour(f.wavelength_nm[b] ?? null, b);
+  const shown = spread(bands.length, mostBands);
+  const own = shown.map((b) => bandColour(f.wavelength_nm[b] ?? null, b));
+  const data = shown.map((b, i): Trace => {
+    const band = bands[b] ?? "";
+    const colour = new Set(own).size === own.length ? (own[i] ?? ink) : orderColour(i, own.length);
     const se = rows.map((x) => x.standard_error[b] ?? null);
     return {
       type: "bar", orientation: "h", name: band, x: rows.map((x) => x.value[b] ?? null), y: names, marker: { color: colour },
@@ -83,7 +93,7 @@ export function parts(r: Simulate, f: Fluxes, rows: Row[], axis: string): PlotSp
     }; // prettier-ignore
   });
   return {
-    height: 130 + Math.max(160, names.length * (8 + 9 * Math.min(4, bands.length))),
+    height: 130 + Math.max(160, names.length * (8 + 9 * Math.min(4, shown.length))),
     data,
     layout: {
       bargap: 0.25,
@@ -101,7 +111,7 @@ export function fluxes(r: Simulate, s: Section): void {
   };
   draw("fluxes", shown, (f) => balance(r, f), "What becomes of the light that enters: absorbed by each material, reflected through the top, and the rest; for each band the stack is the whole.");
   const layers = (f: Fluxes): Row[] => whole(f, "absorbed_layer");
-  draw("flux-layers", shown.filter((f) => layers(f).length > 0), (f) => parts(r, f, layers(f), "layer of the canopy"), "Light absorbed in each layer of the canopy, from the bottom up: the profile of fAPAR by band, with ±1.96 standard errors.");
+  draw("flux-layers", shown.filter((f) => layers(f).length > 0), (f) => parts(r, f, layers(f), "layer of the canopy"), `Light absorbed in each layer of the canopy, from the bottom up: the profile of fAPAR by band (of at most ${mostBands} bands), with ±1.96 standard errors.`);
   const organs = (f: Fluxes): Row[] => {
     const total = (x: Row): number => x.value.reduce((sum: number, v) => sum + (v ?? 0), 0);
     return [...whole(f, "absorbed_organ")].sort((a, b) => total(a) - total(b)).slice(-mostOrgans);
