@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "simulate/forward/forward.h"
 #include "simulate/transport/basis.h"
+#include "tests/forward/lights.h"
 #include "tests/simulate/hemisphere.h"
 
 namespace bpms::test {
@@ -248,18 +249,12 @@ TEST(Fluxes, SkyIsTheMeanOfSuns) {
 // as the isotropic one.
 TEST(Fluxes, SkyMapsCarryTheirIrradiance) {
   const TemporaryFolder folder;
-  constexpr std::size_t zeniths = 10, azimuths = 24;
   const auto with_map = [&](const SceneText& text, bool even) {
-    Simulation out = simulation_of(folder, text);
-    std::vector<float> radiance;
-    for (std::size_t row = 0; row < zeniths; ++row)
-      for (std::size_t column = 0; column < azimuths; ++column)
-        radiance.push_back(even ? 2.0f
-                                : 1.0f + static_cast<float>(row) *
-                                             (1 + std::sin(static_cast<float>(column) * 0.2618f)));
-    out.light.sky->map = std::make_shared<SkyMap>(zeniths, azimuths, 1, radiance);
-    out.light.sky->radiance = {out.light.sky->map->irradiance()[0] / pi};
-    return out;
+    return with_sky_map(
+        simulation_of(folder, text), [even](std::size_t row, std::size_t column, std::size_t) {
+          return even ? 2.0f
+                      : 1.0f + static_cast<float>(row) * (1 + std::sin(static_cast<float>(column) * 0.2618f));
+        });
   };
   SceneText scene;
   scene.soil = lambertian("0.0");
@@ -290,22 +285,16 @@ TEST(Fluxes, DiscsOfSunsAreTheMeanOfTheirDirections) {
   const FluxResult disc = fluxes_of(simulation);
   const Value direct = flux(disc, Flux::transmitted_direct);
   // Directions evenly over the disc, each with its cosine.
-  constexpr int rings = 8, steps = 12;
   double sum = 0, weight = 0, error = 0;
-  const Eigen::Vector3d centre = simulation.light.suns[0].direction;
-  const Eigen::Vector3d side = centre.unitOrthogonal(), other = centre.cross(side);
-  for (int ring = 0; ring < rings; ++ring) {
-    const double z = 1 - (ring + 0.5) / rings * (1 - std::cos(radians(10))), r = std::sqrt(1 - z * z);
-    for (int step = 0; step < steps; ++step) {
-      const double angle = 2 * pi * (step + 0.5 * (ring % 2)) / steps;
-      Simulation one = simulation_of(folder, scene);
-      one.sampling.samples = 4096;
-      one.light.suns[0].direction = z * centre + r * (std::cos(angle) * side + std::sin(angle) * other);
-      const Value value = flux(fluxes_of(one, {}, static_cast<std::uint64_t>(2 + ring * steps + step)),
-                               Flux::transmitted_direct);
-      const double cosine = one.light.suns[0].direction.z();
-      sum += cosine * value.value, weight += cosine, error += cosine * cosine * value.error * value.error;
-    }
+  std::uint64_t seed = 2;
+  for (const Eigen::Vector3d& direction :
+       disc_directions(simulation.light.suns[0].direction, radians(10), 8, 12)) {
+    Simulation one = simulation_of(folder, scene);
+    one.sampling.samples = 4096;
+    one.light.suns[0].direction = direction;
+    const Value value = flux(fluxes_of(one, {}, seed++), Flux::transmitted_direct);
+    const double cosine = direction.z();
+    sum += cosine * value.value, weight += cosine, error += cosine * cosine * value.error * value.error;
   }
   EXPECT_LT(std::abs(direct.value - sum / weight), 4.5 * std::hypot(direct.error, std::sqrt(error) / weight))
       << direct.value << " and " << sum / weight;
@@ -369,31 +358,28 @@ TEST(Fluxes, OpenScenesUnderADiscAreTheMeanOfItsDirections) {
   simulation.light.suns[0].radius = radius;
   const FluxResult disc = fluxes_of(simulation);
   expect_energy_to_close(disc, 0.2);
-  const Eigen::Vector3d centre = simulation.light.suns[0].direction;
-  const Eigen::Vector3d side = centre.unitOrthogonal(), other = centre.cross(side);
-  constexpr int rings = 6, steps = 12;
   const std::array which{Flux::reflected, Flux::transmitted_direct, Flux::absorbed_canopy, Flux::lost_sides};
   std::array<double, 4> sum{}, error{};
   double weight = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    const double z = 1 - (ring + 0.5) / rings * (1 - std::cos(radius)), r = std::sqrt(1 - z * z);
-    for (int step = 0; step < steps; ++step) {
-      const double angle = 2 * pi * (step + 0.5 * (ring % 2)) / steps;
-      Simulation one = simulation_of(folder, scene);
-      one.sampling.samples = 4096;
-      one.light.suns[0].direction = z * centre + r * (std::cos(angle) * side + std::sin(angle) * other);
-      const FluxResult result = fluxes_of(one, {}, static_cast<std::uint64_t>(2 + ring * steps + step));
-      // Its irradiance is that on the plane normal to it.
-      const double power = result.entering[0][0];
-      weight += power;
-      for (std::size_t i = 0; i < which.size(); ++i) {
-        const Value value = flux(result, which[i]);
-        sum[i] += power * value.value, error[i] += std::pow(power * value.error, 2);
-      }
+  const std::vector<Eigen::Vector3d> directions =
+      disc_directions(simulation.light.suns[0].direction, radius, 6, 12);
+  std::uint64_t seed = 2;
+  for (const Eigen::Vector3d& direction : directions) {
+    Simulation one = simulation_of(folder, scene);
+    one.sampling.samples = 4096;
+    one.light.suns[0].direction = direction;
+    const FluxResult result = fluxes_of(one, {}, seed++);
+    // Its irradiance is that on the plane normal to it.
+    const double power = result.entering[0][0];
+    weight += power;
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      const Value value = flux(result, which[i]);
+      sum[i] += power * value.value, error[i] += std::pow(power * value.error, 2);
     }
   }
   // The mean of a disc of even radiance is 2 / (1 + cos r) of its irradiance (see docs/physics.md).
-  EXPECT_NEAR(disc.entering[0][0], weight / (rings * steps) * 2 / (1 + std::cos(radius)),
+  EXPECT_NEAR(disc.entering[0][0],
+              weight / static_cast<double>(directions.size()) * 2 / (1 + std::cos(radius)),
               1e-3 * disc.entering[0][0]);  // of the quadrature with 72 directions
   for (std::size_t i = 0; i < which.size(); ++i) {
     const Value found = flux(disc, which[i]);
@@ -407,16 +393,10 @@ TEST(Fluxes, OpenScenesUnderADiscAreTheMeanOfItsDirections) {
 // quadrature says, and all of it comes out again.
 TEST(Fluxes, OpenScenesUnderSkyMaps) {
   const TemporaryFolder folder;
-  constexpr std::size_t zeniths = 10, azimuths = 24;
   const auto with_map = [&](const SceneText& text, bool even) {
-    Simulation out = simulation_of(folder, text);
-    std::vector<float> radiance;
-    for (std::size_t row = 0; row < zeniths; ++row)
-      for (std::size_t column = 0; column < azimuths; ++column)
-        radiance.push_back(even ? 1.0f : column < azimuths / 2 ? 4.0f : 0.5f);
-    out.light.sky->map = std::make_shared<SkyMap>(zeniths, azimuths, 1, radiance);
-    out.light.sky->radiance = {out.light.sky->map->irradiance()[0] / pi};
-    return out;
+    return with_sky_map(simulation_of(folder, text), [even](std::size_t, std::size_t column, std::size_t) {
+      return even ? 1.0f : column < 12 ? 4.0f : 0.5f;
+    });
   };
   SceneText scene = open_crown(folder);
   scene.sky = white_sky;

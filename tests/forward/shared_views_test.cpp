@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "simulate/forward/shared_views.h"
+#include "tests/forward/lights.h"
 #include "tests/simulate/scene_text.h"
 
 namespace bpms::test {
@@ -138,16 +139,10 @@ TEST(SharedViews, AreTheReverseModesUnderADiscAndASkyMap) {
   scene.sampling = "samples = 65536";
   Simulation simulation = simulation_of(folder, scene);
   simulation.light.suns[0].radius = 0.21;
-  constexpr std::size_t zeniths = 10, azimuths = 12, bands = 2;
-  std::vector<float> radiance;
-  for (std::size_t row = 0; row < zeniths; ++row)
-    for (std::size_t column = 0; column < azimuths; ++column)
-      for (std::size_t band = 0; band < bands; ++band)
-        radiance.push_back(column < azimuths / 2 ? 2.0f + static_cast<float>(band) : 0.5f);
-  simulation.light.sky->map = std::make_shared<SkyMap>(zeniths, azimuths, bands, radiance);
-  simulation.light.sky->radiance = simulation.light.sky->map->irradiance();
-  for (double& of : simulation.light.sky->radiance) of /= 3.14159265358979;
-  expect_the_reverse_mode(simulation);
+  expect_the_reverse_mode(
+      with_sky_map(std::move(simulation), [](std::size_t, std::size_t column, std::size_t band) {
+        return column < 12 ? 2.0f + static_cast<float>(band) : 0.5f;
+      }));
 }
 
 TEST(SharedViews, BareGroundIsAsItIs) {
