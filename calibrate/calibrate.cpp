@@ -29,6 +29,17 @@ std::vector<std::string> frame_names(const Observations& observations) {
   return out;
 }
 
+// "; skipped left3.png: no whole chessboard found", the first few.
+std::string skipped_words(const Observations& observations) {
+  constexpr std::size_t most = 3;
+  std::string out;
+  const auto& skipped = observations.skipped;
+  for (std::size_t i = 0; i < std::min(most, skipped.size()); ++i)
+    out += fmt::format("; skipped {}: {}", skipped[i].image, skipped[i].reason);
+  if (skipped.size() > most) out += fmt::format("; and {} more", skipped.size() - most);
+  return out;
+}
+
 void require_views(const Observations& observations) {
   constexpr int fewest = 3;
   if (observations.views.empty()) {
@@ -42,8 +53,9 @@ void require_views(const Observations& observations) {
         std::count_if(observations.views.begin(), observations.views.end(),
                       [&](const BoardView& view) { return view.camera == static_cast<int>(c); });
     if (views < fewest)
-      bad_input({}, "camera {} has {} usable view{} of the target, at least {} are needed",
-                in_quotes(observations.cameras[c].name), views, views == 1 ? "" : "s", fewest);
+      bad_input({}, "camera {} has {} usable view{} of the target, at least {} are needed{}",
+                in_quotes(observations.cameras[c].name), views, views == 1 ? "" : "s", fewest,
+                skipped_words(observations));
   }
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "core/units.h"
 #include "simulate/forward/choose_mode.h"
 #include "simulate/simulate.h"
 
@@ -118,6 +119,9 @@ Simulation parse_simulation(const std::string& path, std::string_view text) {
     }
   }
   out.sampling = read_sampling(root.require("sampling"));
+  if (const TomlValue limits = root.get("limits"))
+    if (const TomlValue memory = limits.get("memory"))
+      out.most_bytes = parse_bytes(memory.string(), memory.where());
   document.finish();
   return out;
 }

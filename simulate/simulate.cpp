@@ -8,27 +8,36 @@
 #include "simulate/forward/choose_mode.h"
 #include "simulate/forward/forward.h"
 #include "simulate/forward/shared_views.h"
+#include "simulate/memory_limit.h"
 #include "simulate/output/sun_gap.h"
 #include "simulate/transport/schedule.h"
 
 namespace bpms {
 namespace {
 
-// Refuses a sensor that stands where no light comes.
+// Refuses a sensor that stands where no light comes. The views of most kinds start at one place; of a list of
+// rays, so many are looked at.
 void require_free(const Sensor& sensor, const Intersector& intersector, const Extent& extent) {
   if (sensor.parallel(0)) return;
-  const Eigen::Vector3f place = sensor.start(sensor.views() / 2, {0.5, 0.5}, extent).origin;
-  if (intersector.inside_solid(place.cast<double>()))
-    fail(ErrorKind::bad_input, {},
-         "sensor \"{}\" stands at ({:.4g}, {:.4g}, {:.4g}) m, inside a solid or below the ground",
-         sensor.name, place.x(), place.y(), place.z());
+  constexpr std::size_t most_places = 64;
+  const std::size_t step =
+      sensor.type == "rays" ? (sensor.views() + most_places - 1) / most_places : sensor.views();
+  for (std::size_t view = step / 2; view < sensor.views(); view += step) {
+    const Eigen::Vector3f place = sensor.start(view, {0.5, 0.5}, extent).origin;
+    if (intersector.inside_solid(place.cast<double>()))
+      fail(ErrorKind::bad_input, sensor.where,
+           "sensor \"{}\" stands at ({:.4g}, {:.4g}, {:.4g}) m, inside a solid or below the ground",
+           sensor.name, place.x(), place.y(), place.z());
+  }
 }
 
 }  // namespace
 
 Result simulate(const Simulation& simulation, std::uint64_t seed) {
   const auto start = std::chrono::steady_clock::now();
-  const Intersector intersector(simulation.scene);
+  IntersectorOptions options;
+  options.most_bytes = simulation.most_bytes;
+  const Intersector intersector(simulation.scene, options);
   Result out = simulate(simulation, intersector, seed);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
@@ -43,6 +52,7 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
         ErrorKind::bad_input, {},
         "interactions cannot be counted here: a surface or the sky has another shape in each band, bands are "
         "sampled, or shadows are attenuated");
+  require_memory(simulation, stage);
   for (const auto& sensor : simulation.sensors) require_free(*sensor, intersector, stage.extent);
   Result out;
   out.seed = seed;
@@ -53,14 +63,16 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
   Progress progress("paths", 0);
   bool out_of_time = false, out_of_samples = false;
   const std::size_t sensors = simulation.sensors.size() + simulation.fluxes.size();
+  // Each sensor gets an equal part of the time, and what those before it left.
+  const auto deadline_of = [&](std::size_t sensor) {
+    if (!(simulation.sampling.max_seconds > 0)) return Clock::time_point::max();
+    const double share = static_cast<double>(sensor + 1) / static_cast<double>(sensors);
+    return start + std::chrono::duration_cast<Clock::duration>(
+                       std::chrono::duration<double>(simulation.sampling.max_seconds * share));
+  };
   for (std::size_t s = 0; s < simulation.sensors.size() && !interrupted(); ++s) {
     const Sensor& sensor = *simulation.sensors[s];
-    Run run{&stage, seed, static_cast<std::uint32_t>(s), Clock::time_point::max(), false, false, &progress};
-    if (simulation.sampling.max_seconds > 0) {
-      const double share = static_cast<double>(s + 1) / static_cast<double>(sensors);
-      run.deadline = start + std::chrono::duration_cast<Clock::duration>(
-                                 std::chrono::duration<double>(simulation.sampling.max_seconds * share));
-    }
+    Run run{&stage, seed, static_cast<std::uint32_t>(s), deadline_of(s), false, false, &progress};
     const Mode mode =
         choose_mode(simulation.sampling.mode, simulation, sensor, simulation.sampling.mode_where);
     if (mode == Mode::forward) {
@@ -79,12 +91,13 @@ Result simulate(const Simulation& simulation, const Intersector& intersector, st
     out_of_time = out_of_time || run.out_of_time;
     out_of_samples = out_of_samples || run.out_of_samples;
   }
-  for (const FluxSensor& flux : simulation.fluxes) {
-    if (interrupted()) break;
-    const FluxResult result = trace_fluxes(simulation, intersector, seed, flux.options);
+  for (std::size_t f = 0; f < simulation.fluxes.size() && !interrupted(); ++f) {
+    const FluxResult result = trace_fluxes(simulation, intersector, seed, simulation.fluxes[f].options,
+                                           deadline_of(simulation.sensors.size() + f));
     out.samples += result.samples;
     out.rays += result.rays;
     out_of_samples = out_of_samples || result.stopped_by == "max_samples";
+    out_of_time = out_of_time || result.stopped_by == "max_seconds";
     out.fluxes.push_back(std::make_shared<const FluxResult>(result));
   }
   out.seconds = std::chrono::duration<double>(Clock::now() - start).count();

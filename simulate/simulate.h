@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "simulate/forward/flux_options.h"
 #include "simulate/light/light.h"
 #include "simulate/materials/material.h"
+#include "simulate/sensors/flux_sensor.h"
 #include "simulate/sensors/sensor.h"
 
 namespace bpms {
@@ -48,6 +48,7 @@ struct Simulation {
   std::vector<std::unique_ptr<Sensor>> sensors;
   std::vector<FluxSensor> fluxes;
   Sampling sampling;
+  std::uint64_t most_bytes = 0;  // for what is traced and the results together; 0: no limit
   std::vector<std::string> inputs;
 };
 Simulation read_simulation(const std::string& path);

@@ -8,6 +8,7 @@
 #include "core/atomic_file.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
+#include "core/units.h"
 #include "simulate/output/derived.h"
 #include "simulate/output/envi.h"
 #include "simulate/output/output.h"
@@ -23,7 +24,7 @@ struct SimulateArguments {
   std::uint64_t samples = 0;
   bool image_origins = false;
   bool keep_interactions = false;
-  std::string envi, romc, diffuse_fraction;
+  std::string envi, romc, diffuse_fraction, memory;
 };
 
 // A picture beside OUT.nc for each image: OUT.png, or OUT_SENSOR.png when there are several sensors.
@@ -82,8 +83,12 @@ void write_envi(const Cli& cli, const std::string& prefix, const Simulation& sim
       const EnviCube cube =
           envi_cube(simulation, result.sensors[i], errors, "bpms " + std::string(version()));
       const std::string path = envi_path(simulation, i, prefix, errors);
-      write_file(path, cube.pixels, cli.common.overwrite);
-      write_file(envi_header_path(path), cube.header, cli.common.overwrite);
+      // Neither is of use without the other: both are on the disk before either is in its place.
+      AtomicFile pixels(path, cli.common.overwrite), header(envi_header_path(path), cli.common.overwrite);
+      pixels.write(cube.pixels);
+      header.write(cube.header);
+      pixels.commit();
+      header.commit();
     }
 }
 
@@ -115,6 +120,7 @@ void run(const Cli& cli, const SimulateArguments& options) {
     simulation.sampling.samples = options.samples;
     simulation.sampling.target_se = 0;
   }
+  if (!options.memory.empty()) simulation.most_bytes = parse_bytes(options.memory, {"--memory"});
   simulation.sampling.keep_interactions = options.keep_interactions;
   for (const std::string& line : simulation.scene.notes) note(line);
   const std::vector<double> fraction = diffuse_fraction(options.diffuse_fraction, simulation);
@@ -153,6 +159,8 @@ void add_simulate(Cli& cli) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000'000}));
   verb->add_option("--target-se", options->target_se, "standard error of each view's total: 0.0002 or 0.1%")
       ->excludes("--samples");
+  verb->add_option("--memory", options->memory,
+                   "refuse what needs more for the traced scene and the results: 4GiB");
   verb->add_option("--envi", options->envi,
                    "image cubes with headers as ENVI reads them: PREFIX_SENSOR.img, or FOLDER/");
   verb->add_option(

@@ -98,11 +98,11 @@ void FluxTally::add(std::size_t row, const float* weight) {
     for (std::size_t i = b; i < b + 8; ++i) to[i] += static_cast<double>(weight[i]);
 }
 
-void FluxTally::arrive(const Photon& photon, const float* weight, int order) {
+void FluxTally::arrive(const Photon& photon, const float* weight, int) {
   if (!photon.ground || !photon.front) return;
   add(rows_->of(Flux::transmitted), weight);
   if (!photon.grounded) add(rows_->of(Flux::transmitted_first), weight);
-  if (order == 0) add(rows_->of(Flux::transmitted_direct), weight);
+  if (!photon.scattered) add(rows_->of(Flux::transmitted_direct), weight);
   add(rows_->pixel(photon), weight);
 }
 
@@ -115,7 +115,7 @@ void FluxTally::absorb(const Photon& photon, const float* weight) {
   add(rows_->layer(photon), weight);
 }
 
-void FluxTally::leave(const Photon& photon, const float* weight, int order, Exit exit) {
+void FluxTally::leave(const Photon& photon, const float* weight, int, Exit exit) {
   switch (exit) {
     case Exit::top:
       return add(rows_->of(Flux::reflected), weight);
@@ -126,7 +126,7 @@ void FluxTally::leave(const Photon& photon, const float* weight, int order, Exit
     case Exit::bottom:
       add(rows_->of(Flux::transmitted), weight);
       if (!photon.grounded) add(rows_->of(Flux::transmitted_first), weight);
-      if (order == 0) add(rows_->of(Flux::transmitted_direct), weight);
+      if (!photon.scattered) add(rows_->of(Flux::transmitted_direct), weight);
       return;
   }
 }

@@ -12,6 +12,8 @@
 namespace bpms {
 namespace {
 
+using FluxClock = std::chrono::steady_clock;
+
 constexpr std::uint32_t flux_stream = 0xf1f10000u;  // keeps the numbers apart from those of sensors
 constexpr std::uint64_t largest_flux_wave = 1 << 16;
 
@@ -87,7 +89,7 @@ class FluxRun {
     std::vector<double> out(stage_.optics.bands, 0.0);
     for (const PhotonSource& source : stage_.sources)
       for (std::size_t band = 0; band < out.size() && belongs(source, origin); ++band)
-        out[band] += source.irradiance[band] * source.entering_m2;
+        out[band] += source.irradiance[band] * source.entering_m2[band];
     return out;
   }
   // In the written bands.
@@ -107,7 +109,8 @@ class FluxRun {
           const PhotonSource& source = stage_.sources[s];
           if (!belongs(source, origin)) continue;
           for (std::size_t band = 0; band < traced; ++band)
-            power[band] += source.irradiance[band] * source.entering_m2 * tallies_[s][batch].mean(row, band);
+            power[band] +=
+                source.irradiance[band] * source.entering_m2[band] * tallies_[s][batch].mean(row, band);
         }
         const std::vector<double> value = bands.integrate(power);
         for (std::size_t band = 0; band < written; ++band)
@@ -127,23 +130,43 @@ class FluxRun {
   std::vector<std::unique_ptr<ParallelRays>> sun_rays_;
 };
 
+// What there is time for, by the pace so far; `done` where it is too little for another round.
+std::uint64_t affordable(std::uint64_t done, FluxClock::time_point start, FluxClock::time_point deadline) {
+  if (deadline == FluxClock::time_point::max()) return std::numeric_limits<std::uint64_t>::max();
+  const auto seconds = [](FluxClock::duration d) { return std::chrono::duration<double>(d).count(); };
+  const FluxClock::time_point now = FluxClock::now();
+  const double growth = 1 + std::max(0.0, seconds(deadline - now)) / std::max(1e-9, seconds(now - start));
+  constexpr double worth_a_round = 1.125, most_growth = 1e6;
+  if (growth < worth_a_round) return done;
+  return static_cast<std::uint64_t>(static_cast<double>(done) * std::min(growth, most_growth));
+}
+
 }  // namespace
 
 FluxResult trace_fluxes(const Simulation& simulation, const Intersector& intersector, std::uint64_t seed,
-                        const FluxOptions& options) {
+                        const FluxOptions& options, FluxClock::time_point deadline) {
   for (const Material& material : simulation.materials)
-    if (material.map || material.bump)
-      throw Error(
-          ErrorKind::bad_input,
-          fmt::format("material {} has a map: fluxes are not built for maps yet", in_quotes(material.name)));
+    if (material.bump)
+      fail(ErrorKind::bad_input, {},
+           "material {} has a bump: what a tilted normal sends out is not bounded by what the surface "
+           "receives, "
+           "so its energy does not close; expected fluxes of materials without bumps",
+           in_quotes(material.name));
   FluxRun run(simulation, intersector, seed, options);
   const Sampling& sampling = simulation.sampling;
   Progress progress("photons", 0);
+  const FluxClock::time_point start = FluxClock::now();
   std::uint64_t done = 0;
   double reached = 0;
+  bool out_of_time = false;
   for (;;) {
-    const std::uint64_t goal = next_size(sampling, done, reached);
+    std::uint64_t goal = next_size(sampling, done, reached);
     if (goal == done || (interrupted() && done > 0)) break;
+    if (done > 0) goal = std::min(goal, affordable(done, start, deadline));
+    if (goal == done) {
+      out_of_time = true;
+      break;
+    }
     throw_if_interrupted();
     run.trace(done, goal);
     progress.add((goal - done) * batches);
@@ -153,10 +176,27 @@ FluxResult trace_fluxes(const Simulation& simulation, const Intersector& interse
   FluxResult out = run.result();
   out.map_px = options.map_px;
   out.stopped_by = interrupted()                           ? "interrupt"
+                   : out_of_time                           ? "max_seconds"
                    : sampling.samples > 0                  ? "samples"
                    : sampling.target_se > 0 && reached < 1 ? "max_samples"
                                                            : "target_se";
   return out;
+}
+
+std::uint64_t flux_bytes(const Simulation& simulation, const FluxOptions& options) {
+  std::uint64_t rows =
+      static_cast<std::uint64_t>(Flux::absorbed_material) + simulation.materials.size() +
+      static_cast<std::uint64_t>(options.layers) + options.layers_m.size() +
+      static_cast<std::uint64_t>(options.map_px[0]) * static_cast<std::uint64_t>(options.map_px[1]);
+  if (options.plants) rows += simulation.scene.instances.size();
+  if (options.organs)
+    for (const Prototype& prototype : simulation.scene.prototypes)
+      rows += prototype.mesh ? prototype.mesh->organs.size() : 0;
+  const std::uint64_t sources = simulation.light.suns.size() + (simulation.light.sky ? 1 : 0),
+                      width = (simulation.bands.count() + 7) / 8 * 8;
+  constexpr std::uint64_t most_origins = 3;
+  return rows * (sizeof(FluxRow) + sources * batches * width * sizeof(double) +
+                 most_origins * simulation.bands.written() * 2 * sizeof(double));
 }
 
 std::size_t FluxResult::row(Flux flux, std::uint32_t index, std::uint32_t prototype) const {

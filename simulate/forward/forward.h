@@ -2,6 +2,7 @@
 // Definitions: docs/forward.md.
 #pragma once
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -43,14 +44,20 @@ struct FluxResult {
   double ground_area_m2 = 0;                  // of the cell, or of the open scene's box
   std::array<int, 2> map_px{0, 0};
   std::uint64_t samples = 0, rays = 0;
-  std::string stopped_by;  // target_se, samples, max_samples, interrupt
+  std::string stopped_by;  // target_se, samples, max_samples, max_seconds, interrupt
 
   // The row of a flux, by its index; rows.size() where there is none.
   std::size_t row(Flux flux, std::uint32_t index = 0, std::uint32_t prototype = 0) const;
 };
 
-// target_se concerns reflected, transmitted and absorbed_canopy of the total, in every band.
-FluxResult trace_fluxes(const Simulation& simulation, const Intersector& intersector, std::uint64_t seed,
-                        const FluxOptions& options = {});
+// target_se concerns reflected, transmitted and absorbed_canopy of the total, in every band. Stops at the
+// deadline with what is done, at least one round.
+FluxResult trace_fluxes(
+    const Simulation& simulation, const Intersector& intersector, std::uint64_t seed,
+    const FluxOptions& options = {},
+    std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max());
+
+// What the sums and the result of these fluxes take, in bytes; before they are made.
+std::uint64_t flux_bytes(const Simulation& simulation, const FluxOptions& options);
 
 }  // namespace bpms

@@ -20,6 +20,12 @@ class PhotonOptics {
     return absorbed_.data() + (2 * material + (front ? 0 : 1)) * width;
   }
   const SurfaceOptics& surface(std::uint32_t material) const { return optics_.surfaces[material]; }
+  // What the surface is made of where it was hit.
+  std::uint32_t material_at(const Hit& hit) const {
+    if (optics_.maps.empty() || optics_.maps[hit.material].map == nullptr) return hit.material;
+    const SurfaceMaps& maps = optics_.maps[hit.material];
+    return maps.materials[static_cast<std::size_t>(maps.map->nearest(hit.uv))];
+  }
   float largest_factor() const { return *std::max_element(factors_.begin(), factors_.end()); }
   bool opaque(std::uint32_t material) const { return optics_.surfaces[material].opaque; }
 

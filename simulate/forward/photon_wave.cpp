@@ -23,6 +23,7 @@ void scatter_diffuse(Photon& photon, const PhotonOptics& optics, const Interacti
                    1.0f / ((reflect ? share : 1.0f - share) * chosen), optics.width);
   const Eigen::Vector3f outward = photon.front == reflect ? photon.normal : Eigen::Vector3f(-photon.normal);
   photon.direction = cosine_direction(outward, random.direction_u, random.direction_v);
+  photon.scattered = true;
 }
 
 bool scatter_lobes(Photon& photon, const PhotonOptics& optics, InteractionNumbers random, float* weight) {
@@ -62,7 +63,9 @@ bool scatter_lobes(Photon& photon, const PhotonOptics& optics, InteractionNumber
     lobe.lobe->values(from, to, {values.data(), optics.bands});
     multiply_weights(weight, values.data(), scale, optics.width);
   }
-  if (!lobe.lobe->is_straight()) photon.direction = frame.to_world(to).normalized();
+  if (lobe.lobe->is_straight()) return true;
+  photon.direction = frame.to_world(to).normalized();
+  photon.scattered = true;
   return true;
 }
 

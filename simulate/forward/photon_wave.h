@@ -29,7 +29,8 @@ struct Photon {
   std::uint32_t material, organ;
   std::uint32_t sample, slot;
   bool front, ground;
-  bool grounded;  // has been at the ground before
+  bool grounded;   // has been at the ground before
+  bool scattered;  // has changed its direction
 };
 
 // What all photons share.
@@ -100,10 +101,9 @@ void PhotonWave<Sink>::run(const PhotonSource& source, const ParallelRays* rays,
     photon.direction = start.direction;
     photon.surface = SurfaceId{};
     photon.extent = -1;
-    photon.grounded = false;
+    photon.grounded = photon.scattered = false;
   }
-  const std::uint32_t shift =
-      source.is_sun ? 0 : 1;  // the sky's direction used the first interaction's numbers
+  const std::uint32_t shift = source.has_directions() ? 1 : 0;  // that used the first interaction's numbers
   const int most = stage_.simulation->sampling.max_order;
   std::vector<std::uint64_t> spare;
   const Curve curve(stage_.extent);
@@ -153,7 +153,7 @@ bool PhotonWave<Sink>::meet(Photon& photon, const ParallelRays* rays, int order)
   photon.normal = hit.geometric_normal;
   photon.surface = hit.id;
   photon.extent = hit.extent;
-  photon.material = hit.material;
+  photon.material = stage_.optics.material_at(hit);
   photon.organ = hit.organ;
   photon.front = hit.front;
   photon.ground = hit.ground;

@@ -65,8 +65,8 @@ class SharedRun {
         sources_(simulation),
         grids_(simulation, intersector, sensor) {
     for (const PhotonSource& source : stage_.sources) {
-      sun_grids_.push_back(source.is_sun ? intersector.parallel_rays(simulation.scene, source.towards)
-                                         : nullptr);
+      sun_grids_.push_back(
+          !source.has_directions() ? intersector.parallel_rays(simulation.scene, source.towards) : nullptr);
       sun_rays_.push_back(sun_grids_.back().get());
     }
     for (std::size_t view = 0; view < sensor.views(); ++view)
@@ -207,15 +207,13 @@ bool can_share_paths(const Simulation& simulation, const Sensor& sensor, std::st
   };
   constexpr std::size_t most_bands = 64, most_materials = 65536, most_suns = 254;
   if (!simulation.scene.domain.periodic)
-    return no("the scene is open, and light would come from beyond its box");
+    return no("the scene is open, and views look past its box, where no photon starts");
   if (simulation.bands.count() > most_bands) return no("there are more than 64 bands");
   if (simulation.materials.size() > most_materials) return no("there are more than 65 536 materials");
   if (simulation.light.suns.size() > most_suns) return no("there are more than 254 suns");
   if (simulation.bands.sampled) return no("its bands are sampled");
   for (const Material& material : simulation.materials)
     if (!material.is_diffuse()) return no("a material is not diffuse alone");
-  for (const Sun& sun : simulation.light.suns)
-    if (sun.radius > 0) return no("a sun is a disc");
   const Sampling& sampling = simulation.sampling;
   if (sampling.interpolated_normals) return no("normals are interpolated");
   if (sampling.attenuate_shadows) return no("shadows are attenuated");

@@ -36,6 +36,10 @@ ViewSums::ViewSums(const PhotonStage& stage, const Sensor& sensor, std::size_t v
       ray_groups_(batches * groups * stage.optics.bands, 0.0),
       photon_groups_(ray_groups_) {
   const Light& light = stage.simulation->light;
+  for (const Sun& sun : light.suns) {
+    cos_radius_.push_back(std::cos(sun.radius));
+    frames_.emplace_back(sun.direction.cast<float>());
+  }
   for (const PhotonSource& source : stage.sources)
     unit_.push_back(source.is_sun ? light.suns[static_cast<std::size_t>(source.sun)].irradiance
                                   : light.sky->radiance);
@@ -47,6 +51,7 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays,
   struct Start {
     Ray ray;
     std::uint32_t batch, group;
+    std::uint64_t sample;
   };
   std::vector<Start> starts;
   std::vector<std::uint64_t> order, spare;
@@ -63,7 +68,7 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays,
                             << 32 |
                         starts.size());
         starts.push_back({sensor_->start(view_, {u, v}, stage_->extent), static_cast<std::uint32_t>(batch),
-                          static_cast<std::uint32_t>(batch * groups + sample % groups)});
+                          static_cast<std::uint32_t>(batch * groups + sample % groups), sample});
       }
     }
     sort_places(order, spare);
@@ -79,19 +84,26 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays,
                              : stage_->intersector->intersect(start.ray, hit) == Escape::hit;
       if (!met || hit.ground) ++counts.gap;
       if (!met) continue;
-      for (std::size_t sun = 0; sun < rows_.suns; ++sun)
-        add_sun(start.batch, start.group, sun, sun_rays[sun], hit);
+      PathNumbers numbers(key, start.batch);
+      numbers.start(start.sample);
+      for (std::size_t sun = 0; sun < rows_.suns; ++sun) {
+        Eigen::Vector3f towards = frames_[sun].normal;
+        if (cos_radius_[sun] < 1) {
+          const auto [u, v] = numbers.light(0, static_cast<std::uint32_t>(sun));
+          towards = even_in_cap(frames_[sun], cos_radius_[sun], u, v);
+        }
+        add_sun(start.batch, start.group, sun, towards, sun_rays[sun], hit);
+      }
     }
   }
   rays_ = std::max(rays_, last);
 }
 
 // The light of order 1 from a first hit.
-void ViewSums::add_sun(std::size_t batch, std::size_t group, std::size_t sun, const ParallelRays* rays,
-                       const Hit& hit) {
+void ViewSums::add_sun(std::size_t batch, std::size_t group, std::size_t sun, const Eigen::Vector3f& towards,
+                       const ParallelRays* rays, const Hit& hit) {
   const PhotonOptics& optics = stage_->optics;
   ViewCounts& counts = counts_[batch];
-  const Eigen::Vector3f towards = stage_->sources[sun].towards.cast<float>();
   const float cosine = hit.geometric_normal.dot(towards);
   const bool same_side = (cosine > 0) == hit.front;
   bool lit = same_side || !optics.opaque(hit.material);
@@ -108,10 +120,12 @@ void ViewSums::add_sun(std::size_t batch, std::size_t group, std::size_t sun, co
   if (hit.ground) ++counts.sunlit_ground[sun];
   const float* factor = optics.factor(same_side ? reflectance_factor(hit.material, hit.front)
                                                 : transmittance_factor(hit.material));
+  // Evenly over the disc, per unit of irradiance on the plane normal to its centre.
+  const auto disc = static_cast<float>(2 / (1 + cos_radius_[sun]));
   double* one = sum(batch, rows_.sun(1, sun));
   double* ground = sum(batch, rows_.ground_single(sun));
   for (std::size_t b = 0; b < optics.bands; ++b) {
-    const auto value = static_cast<double>(factor[b] * std::abs(cosine) * one_over_pi);
+    const auto value = static_cast<double>(factor[b] * std::abs(cosine) * one_over_pi * disc);
     one[b] += value;
     ray_groups_[group * optics.bands + b] += value * unit_[sun][b];
     if (hit.ground) ground[b] += value;
@@ -124,8 +138,13 @@ void ViewSums::add_vertices(const PathVertices& vertices, const ParallelRays* vi
   const PhotonOptics& optics = stage_->optics;
   const float mu = towards_.z();
   std::vector<float> scale;
-  for (const PhotonSource& source : stage_->sources)
-    scale.push_back(source.is_sun ? static_cast<float>(source.towards.z()) * one_over_pi / mu : 1.0f / mu);
+  const double cell = (stage_->extent.high_m - stage_->extent.low_m).prod();
+  for (const PhotonSource& source : stage_->sources) {
+    // A part of a sun's disc may lie below the horizon.
+    const auto entering = static_cast<float>(source.entering_m2.front() / cell);
+    scale.push_back(entering *
+                    (source.is_sun ? static_cast<float>(source.towards.z()) * one_over_pi / mu : 1.0f / mu));
+  }
   const std::vector<PathVertex>& list = vertices.list;
   // Least variance x work on HET01: 0.6; 0 (look at all), 0.3 and 0.9 are a few per cent worse.
   constexpr float part_of_strongest = 0.6f;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulate/forward/path_vertices.h"
+#include "simulate/transport/basis.h"
 #include "simulate/transport/estimate.h"
 #include "simulate/transport/sums.h"
 
@@ -34,8 +35,8 @@ class ViewSums {
   Variances variances(const Sources& sources) const;
 
  private:
-  void add_sun(std::size_t batch, std::size_t group, std::size_t sun, const ParallelRays* rays,
-               const Hit& hit);
+  void add_sun(std::size_t batch, std::size_t group, std::size_t sun, const Eigen::Vector3f& towards,
+               const ParallelRays* rays, const Hit& hit);
   double* sum(std::size_t batch, std::size_t row) {
     return sums_.data() + (batch * rows_.count() + row) * stage_->optics.bands;
   }
@@ -47,6 +48,8 @@ class ViewSums {
   std::size_t view_;
   Rows rows_;
   Eigen::Vector3f towards_;
+  std::vector<double> cos_radius_;  // by sun
+  std::vector<Basis> frames_;       // by sun, about its centre
   std::uint64_t rays_ = 0, photons_ = 0;
   std::vector<double> sums_;  // batches x rows of BatchMeans x bands
   std::vector<ViewCounts> counts_;

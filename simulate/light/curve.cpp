@@ -4,30 +4,10 @@
 
 #include "core/text.h"
 #include "simulate/light/light.h"
+#include "simulate/materials/column_lines.h"
 
 namespace bpms {
 namespace {
-
-struct CurveField {
-  std::string_view text;
-  int column;
-};
-
-// Fields of a line; an empty one between two commas counts.
-std::vector<CurveField> fields_of(std::string_view line) {
-  std::vector<CurveField> out;
-  const bool separated = line.find_first_of(",;") != std::string_view::npos;
-  const std::string_view stops = separated ? ",;" : " \t\r";
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find_first_of(stops, at), line.size());
-    std::size_t from = at, to = end;
-    while (from < to && std::string_view(" \t\r\"").find(line[from]) != std::string_view::npos) ++from;
-    while (to > from && std::string_view(" \t\r\"").find(line[to - 1]) != std::string_view::npos) --to;
-    if (separated || to > from) out.push_back({line.substr(from, to - from), static_cast<int>(from) + 1});
-    at = end + 1;
-  }
-  return out;
-}
 
 std::size_t column_of(const std::string& column, const std::vector<std::vector<std::string>>& headers,
                       std::size_t count, const std::string& path) {
@@ -63,20 +43,13 @@ ColumnCurve read_curve(const std::string& path, const std::string& column) {
   const std::string text = read_text(path);
   std::vector<std::vector<std::string>> headers;
   std::size_t count = 0, chosen = 0;
-  int line_number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string_view line = std::string_view(text).substr(at, end - at);
-    at = end + 1;
-    ++line_number;
-    line = line.substr(0, std::min(line.find('#'), line.size()));
-    const std::vector<CurveField> fields = fields_of(line);
-    if (std::all_of(fields.begin(), fields.end(), [](const CurveField& f) { return f.text.empty(); }))
-      continue;
+  for (ColumnLines lines(text); lines.next();) {
+    const std::vector<ColumnField>& fields = lines.fields();
+    const int line_number = lines.number();
     const auto x = parse_number(fields.front().text);
     if (out.x.empty() && !x) {
       auto& header = headers.emplace_back();
-      for (const CurveField& field : fields) header.emplace_back(field.text);
+      for (const ColumnField& field : fields) header.emplace_back(field.text);
       continue;
     }
     if (out.x.empty()) {

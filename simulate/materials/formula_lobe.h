@@ -2,6 +2,8 @@
 // all: what RPV, Hapke, Verstraete-Pinty-Dickinson and tables of measurements have in common.
 #pragma once
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "simulate/materials/hemisphere_sampler.h"
 #include "simulate/materials/lobe.h"
@@ -35,6 +37,25 @@ class FormulaLobe : public Lobe {
   std::size_t sets_;
   bool separable_;
   std::optional<HemisphereSampler> sampler_;
+};
+
+// A formula with its sets of parameters: separable with one, else one for each band. `exponent` as
+// HemisphereSampler has it.
+template <class Parameters, double (*formula)(const Parameters&, const ReflectionAngles&),
+          bool is_reciprocal = true>
+class ParametricLobe final : public FormulaLobe {
+ public:
+  ParametricLobe(std::vector<Parameters> parameters, bool separable, double exponent)
+      : FormulaLobe(parameters.size(), separable), parameters_(std::move(parameters)) {
+    make_sampler(exponent);
+  }
+  double brf(const ReflectionAngles& angles, std::size_t band) const override {
+    return formula(parameters_[band], angles);
+  }
+  bool reciprocal() const override { return is_reciprocal; }
+
+ private:
+  std::vector<Parameters> parameters_;
 };
 
 }  // namespace bpms

@@ -21,11 +21,6 @@ double hapke_brf(const HapkeParameters& p, const ReflectionAngles& angles) {
           hapke_multiple(angles.mu_view, gamma) * hapke_multiple(angles.mu_light, gamma) - 1);
 }
 
-HapkeLobe::HapkeLobe(std::vector<HapkeParameters> parameters, bool separable)
-    : FormulaLobe(parameters.size(), separable), parameters_(std::move(parameters)) {
-  make_sampler(1.5);
-}
-
 Material read_hapke(const TomlValue& table, MaterialContext& context) {
   Material out = black_material(context.bands(), true);
   const std::vector<double> w = context.spectrum(table.require("w"), 0.0, 1.0);
@@ -35,15 +30,9 @@ Material read_hapke(const TomlValue& table, MaterialContext& context) {
   std::vector<HapkeParameters> sets;
   for (std::size_t band = 0; band < w.size(); ++band)
     sets.push_back({w[band], b0[band], h[band], phase.at(band)});
-  SurfaceLobe lobe;
-  lobe.on_face = read_faces(table);
   const bool one = all_flat({&w, &b0, &h, &phase.asymmetry, &phase.a1, &phase.a2});
-  if (one) {
-    sets.resize(1);
-    lobe.spectrum.assign(w.size(), 1.0);
-  }
-  lobe.lobe = std::make_shared<HapkeLobe>(std::move(sets), one);
-  out.lobes.push_back(std::move(lobe));
+  constexpr double exponent = 1.5;  // of the sampler
+  out.lobes.push_back(lobe_of_sets<HapkeLobe>(table, std::move(sets), one, exponent));
   return out;
 }
 

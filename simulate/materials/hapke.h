@@ -14,15 +14,6 @@ struct HapkeParameters {
 };
 double hapke_brf(const HapkeParameters& p, const ReflectionAngles& angles);
 
-class HapkeLobe : public FormulaLobe {
- public:
-  HapkeLobe(std::vector<HapkeParameters> parameters, bool separable);
-  double brf(const ReflectionAngles& angles, std::size_t band) const override {
-    return hapke_brf(parameters_[band], angles);
-  }
-
- private:
-  std::vector<HapkeParameters> parameters_;
-};
+using HapkeLobe = ParametricLobe<HapkeParameters, hapke_brf>;
 
 }  // namespace bpms

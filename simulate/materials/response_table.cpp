@@ -5,32 +5,12 @@
 
 #include "core/text.h"
 #include "simulate/materials/bands.h"
+#include "simulate/materials/column_lines.h"
 
 namespace bpms {
 namespace {
 
-struct Word {
-  std::string text;
-  int column;
-};
-
-std::vector<Word> words_of(std::string_view line) {
-  std::vector<Word> out;
-  const auto is_between = [](char c) { return c == ',' || c == ';' || c == ' ' || c == '\t' || c == '\r'; };
-  for (std::size_t at = 0; at < line.size();) {
-    if (is_between(line[at])) {
-      ++at;
-      continue;
-    }
-    std::size_t end = at;
-    while (end < line.size() && !is_between(line[end])) ++end;
-    out.push_back({std::string(line.substr(at, end - at)), static_cast<int>(at) + 1});
-    at = end;
-  }
-  return out;
-}
-
-double number_in(const std::string& path, int line, const Word& word, const char* what) {
+double number_in(const std::string& path, int line, const ColumnField& word, const char* what) {
   const auto value = parse_number(word.text);
   if (!value) bad_input({path, line, word.column}, "found {}, expected {}", in_quotes(word.text), what);
   return *value;
@@ -71,18 +51,13 @@ double ResponseTable::width_nm(std::size_t row) const {
 ResponseTable read_response_table(const std::string& path, double step_nm) {
   ResponseTable out;
   const std::string text = read_text(path);
-  int number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = std::string_view(text).substr(begin, end - begin);
-    begin = end + 1;
-    ++number;
-    const std::vector<Word> words = words_of(line);
-    if (words.empty() || words[0].text[0] == '#') continue;
+  for (ColumnLines lines(text); lines.next();) {
+    const std::vector<ColumnField>& words = lines.fields();
+    const int number = lines.number();
     if (out.names.empty()) {
       if (parse_number(words[0].text) || words.size() < 2)
         bad_input({path, number, 1}, "expected a header: a name for the wavelength and one for each band");
-      for (std::size_t k = 1; k < words.size(); ++k) out.names.push_back(words[k].text);
+      for (std::size_t k = 1; k < words.size(); ++k) out.names.emplace_back(words[k].text);
       out.response.resize(out.names.size());
       continue;
     }

@@ -22,11 +22,6 @@ double rpv_brf(const RpvParameters& p, const ReflectionAngles& angles) {
          (1 + (1 - p.rhoc) / (1 + angles.distance));
 }
 
-RpvLobe::RpvLobe(std::vector<RpvParameters> parameters, bool separable)
-    : FormulaLobe(parameters.size(), separable), parameters_(std::move(parameters)) {
-  make_sampler(rpv_exponent(parameters_));
-}
-
 Material read_rpv(const TomlValue& table, MaterialContext& context) {
   Material out = black_material(context.bands(), true);
   const std::vector<double> rho0 = context.spectrum(table.require("rho0"), 0.0, 2.0);
@@ -36,15 +31,13 @@ Material read_rpv(const TomlValue& table, MaterialContext& context) {
   const std::vector<double> rhoc = hot_spot ? context.spectrum(hot_spot, 0.0, 2.0) : rho0;
   SurfaceLobe lobe;
   lobe.on_face = read_faces(table);
-  if (all_flat({&k, &theta, &rhoc})) {
-    lobe.lobe = std::make_shared<RpvLobe>(std::vector<RpvParameters>{{1.0, k[0], theta[0], rhoc[0]}}, true);
-    lobe.spectrum = rho0;
-  } else {
-    std::vector<RpvParameters> sets;
-    for (std::size_t band = 0; band < rho0.size(); ++band)
-      sets.push_back({rho0[band], k[band], theta[band], rhoc[band]});
-    lobe.lobe = std::make_shared<RpvLobe>(std::move(sets), false);
-  }
+  const bool one = all_flat({&k, &theta, &rhoc});
+  std::vector<RpvParameters> sets;
+  for (std::size_t band = 0; band < (one ? 1 : rho0.size()); ++band)
+    sets.push_back({one ? 1.0 : rho0[band], k[band], theta[band], rhoc[band]});
+  if (one) lobe.spectrum = rho0;
+  const double exponent = rpv_exponent(sets);
+  lobe.lobe = std::make_shared<RpvLobe>(std::move(sets), one, exponent);
   out.lobes.push_back(std::move(lobe));
   return out;
 }

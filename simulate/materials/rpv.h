@@ -13,16 +13,7 @@ struct RpvParameters {
 };
 double rpv_brf(const RpvParameters& p, const ReflectionAngles& angles);
 
-class RpvLobe : public FormulaLobe {
- public:
-  // One set: separable (rho0 = 1 and its spectrum outside); or one for each band.
-  RpvLobe(std::vector<RpvParameters> parameters, bool separable);
-  double brf(const ReflectionAngles& angles, std::size_t band) const override {
-    return rpv_brf(parameters_[band], angles);
-  }
-
- private:
-  std::vector<RpvParameters> parameters_;
-};
+// One set: separable (rho0 = 1 and its spectrum outside); or one for each band.
+using RpvLobe = ParametricLobe<RpvParameters, rpv_brf>;
 
 }  // namespace bpms

@@ -33,11 +33,6 @@ void set_dickinson(VpdParameters& p, double chi) {
   p.psi2 = 1 - 2 * p.psi1;
 }
 
-VpdLobe::VpdLobe(std::vector<VpdParameters> parameters, bool separable)
-    : FormulaLobe(parameters.size(), separable), parameters_(std::move(parameters)) {
-  make_sampler(1.5);
-}
-
 Material read_verstraete_pinty_dickinson(const TomlValue& table, MaterialContext& context) {
   Material out = black_material(context.bands(), true);
   const std::vector<double> w = context.spectrum(table.require("w"), 0.0, 1.0);
@@ -57,15 +52,9 @@ Material read_verstraete_pinty_dickinson(const TomlValue& table, MaterialContext
     sets[band].w = w[band];
     sets[band].phase = phase.at(band);
   }
-  SurfaceLobe lobe;
-  lobe.on_face = read_faces(table);
   const bool one = all_flat({&w, &phase.asymmetry, &phase.a1, &phase.a2});
-  if (one) {
-    sets.resize(1);
-    lobe.spectrum.assign(w.size(), 1.0);
-  }
-  lobe.lobe = std::make_shared<VpdLobe>(std::move(sets), one);
-  out.lobes.push_back(std::move(lobe));
+  constexpr double exponent = 1.5;  // of the sampler
+  out.lobes.push_back(lobe_of_sets<VpdLobe>(table, std::move(sets), one, exponent));
   return out;
 }
 

@@ -22,16 +22,6 @@ double vpd_brf(const VpdParameters& p, const ReflectionAngles& angles);
 void set_goudriaan(VpdParameters& p, double chi);  // chi from -0.4 (upright) to 0.6 (level), 0 spherical
 void set_dickinson(VpdParameters& p, double chi);
 
-class VpdLobe : public FormulaLobe {
- public:
-  VpdLobe(std::vector<VpdParameters> parameters, bool separable);
-  double brf(const ReflectionAngles& angles, std::size_t band) const override {
-    return vpd_brf(parameters_[band], angles);
-  }
-  bool reciprocal() const override { return false; }
-
- private:
-  std::vector<VpdParameters> parameters_;
-};
+using VpdLobe = ParametricLobe<VpdParameters, vpd_brf, false>;
 
 }  // namespace bpms

@@ -149,8 +149,11 @@ Json flux_report(const Simulation& simulation, const FluxSensor& sensor, const F
                       {"value", value},
                       {"standard_error", error}});
     }
+  Json nm = Json::array();
+  for (std::size_t b = 0; b < bands; ++b) nm.push_back(json_number(simulation.bands.written_nm(b)));
   return {{"name", sensor.name},
           {"type", "flux"},
+          {"wavelength_nm", nm},
           {"samples", result.samples},
           {"rays", result.rays},
           {"rows", rows},

@@ -12,6 +12,8 @@ namespace bpms {
 
 NetcdfReader::NetcdfReader(const std::string& path) : path_(path) {
   if (!std::filesystem::exists(path)) fail(ErrorKind::missing_resource, {path}, "no such file");
+  if (std::filesystem::is_directory(path)) fail(ErrorKind::missing_resource, {path}, "is a folder");
+  if (std::filesystem::file_size(path) == 0) bad_input({path}, "the file is empty");
   if (nc_open(path.c_str(), NC_NOWRITE, &id_) != NC_NOERR) {
     id_ = -1;
     bad_input({path}, "not a NetCDF file");

@@ -26,8 +26,13 @@ std::string sensor_identifier(const Simulation& simulation, std::size_t sensor);
 inline constexpr std::size_t split_bands = 8;
 std::string result_csv(const Simulation& simulation, const Result& result);
 
+// d(radiance)/d(value of a factor's spectrum), of all light together.
+struct Derivatives {
+  std::vector<std::string> factors;
+  std::vector<Estimates> by_sensor;  // views x bands x factors
+};
+
 // Derivatives of the reflectance by the value of each spectrum, in each view and band.
-struct Derivatives;
 std::string derivatives_csv(const Simulation& simulation, const Result& result,
                             const Derivatives& derivatives);
 

@@ -7,7 +7,6 @@
 #include "simulate/output/flux_output.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
-#include "simulate/recolour/recolour.h"
 
 namespace bpms {
 namespace {

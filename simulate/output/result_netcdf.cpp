@@ -8,7 +8,7 @@
 #include "simulate/output/netcdf.h"
 #include "simulate/output/output.h"
 #include "simulate/output/quantity.h"
-#include "simulate/recolour/recording.h"
+#include "simulate/output/recording.h"
 
 namespace bpms {
 namespace {

@@ -6,15 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "simulate/recolour/recording.h"
+#include "simulate/output/output.h"
+#include "simulate/output/recording.h"
 
 namespace bpms {
-
-// d(radiance)/d(value of a factor's spectrum), of all light together.
-struct Derivatives {
-  std::vector<std::string> factors;
-  std::vector<Estimates> by_sensor;  // views x bands x factors
-};
 
 // The recorded simulation with the materials (and bands) that a TOML file gives: [materials.X] for each of
 // the recording (those that are not there stay as they were traced), [bands] optional.

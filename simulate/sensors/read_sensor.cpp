@@ -36,6 +36,7 @@ SensorList read_sensors(const TomlValue& table, const SensorContext& context) {
   for (const auto& sensor : out) {
     sensor->name = name.string() + sensor->name;
     sensor->type = kind;
+    sensor->where = table.where();
   }
   return out;
 }

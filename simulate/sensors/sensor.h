@@ -35,6 +35,7 @@ class Sensor {
   virtual ~Sensor() = default;
   std::string name;
   std::string type;
+  SourceLocation where{};  // of its table
 
   virtual std::size_t views() const = 0;
   virtual Ray start(std::size_t view, const SensorNumbers& random, const Extent& extent) const = 0;

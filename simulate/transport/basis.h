@@ -1,6 +1,7 @@
 // An orthonormal frame about a unit vector (Duff et al. 2017, JCGT 6(1)), and directions in it.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -43,6 +44,14 @@ inline Eigen::Vector3f cosine_direction(const Eigen::Vector3f& normal, double u,
   float sine = 0, cosine = 0;
   sine_cosine_of_turn(static_cast<float>(v), sine, cosine);
   return Basis(normal).to_world({radius * cosine, radius * sine, z});
+}
+
+// Evenly over the cap of directions within acos(cos_radius) of the frame's normal.
+inline Eigen::Vector3f even_in_cap(const Basis& frame, double cos_radius, double u, double v) {
+  const double z = 1 - u * (1 - cos_radius), angle = 2.0 * std::numbers::pi * v;
+  const double radius = std::sqrt(std::max(0.0, 1 - z * z));
+  return frame.to_world(Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), z).cast<float>())
+      .normalized();
 }
 
 }  // namespace bpms

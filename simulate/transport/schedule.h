@@ -22,6 +22,9 @@ struct Run {
 // Paths a batch, next round: from `now` (0: none yet), and how far the target is (see `reached`).
 std::uint64_t next_size(const Sampling& sampling, std::uint64_t now, double reached);
 
+// What the result of a sensor takes, in bytes; before it is made.
+std::uint64_t result_bytes(const Stage& stage, const Sensor& sensor);
+
 // Estimates of all views of a sensor; views that an interrupt left out have samples = 0.
 SensorResult run_sensor(Run& run, const Sensor& sensor);
 

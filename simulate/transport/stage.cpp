@@ -1,5 +1,6 @@
 #include "simulate/transport/stage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,7 +18,11 @@ SunOptics make_sun(const Sun& sun, const Simulation& simulation, const Intersect
     out.weight = static_cast<float>(2 / (1 + c));
     out.radiance = static_cast<float>(1 / (std::numbers::pi * s * s));
   } else if (!lets_through) {
-    out.rays = intersector.parallel_rays(simulation.scene, sun.direction);
+    // A grid of the sun's rays is for speed alone: it takes no more than the limit leaves.
+    constexpr std::uint64_t most_grid = 1u << 29;
+    const std::uint64_t scene = intersector.estimated_bytes(), limit = simulation.most_bytes;
+    const std::uint64_t left = limit == 0 ? most_grid : limit > scene ? limit - scene : 0;
+    out.rays = intersector.parallel_rays(simulation.scene, sun.direction, std::min(most_grid, left));
   }
   return out;
 }

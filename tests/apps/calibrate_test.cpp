@@ -98,14 +98,15 @@ INSTANTIATE_TEST_SUITE_P(
         images("NoBoardInAny", both(blank_image("left1.png", 64, 48), blank_image("left2.png", 64, 48)), "",
                {"no usable view", "left1.png", "chessboard"}),
         images("TwoUsable", both(board_images(2), blank_image("left3.png", 640, 480)), "",
-               {"'left' has 2 usable views", "at least 3"}),
+               {"'left' has 2 usable views", "at least 3",
+                "skipped left3.png: no whole 9x6 chessboard found"}),
         images("TwoUsableAndOneOfAnotherSize", both(board_images(2), blank_image("left3.png", 320, 240)), "",
-               {"2 usable views"}),
+               {"2 usable views", "skipped left3.png: 320x240 pixels"}),
         images("TwoUsableAndOneCutShort",
                two_boards_and("left3.png", std::string("\x89PNG\r\n\x1a\n") + "IHDR"), "",
-               {"2 usable views"}),
+               {"2 usable views", "skipped left3.png: is cut short"}),
         images("TwoUsableAndOneThatIsNoImage", two_boards_and("left3.png", "no image"), "",
-               {"2 usable views"})}),
+               {"2 usable views", "skipped left3.png: cannot be read as an image"})}),
     name_of_case);
 
 TEST(CalibrateImages, GoesOnWithoutTheBadOnesAndNamesThem) {

@@ -67,5 +67,16 @@ TEST(Text, LengthsSayTheirUnit) {
   BPMS_EXPECT_ERROR(parse_length("25 parsec", {}), bad_input, "unknown unit of length 'parsec'");
 }
 
+TEST(Text, AmountsOfMemorySayTheirUnit) {
+  EXPECT_EQ(parse_bytes("4 GiB", {}), std::uint64_t{1} << 32);
+  EXPECT_EQ(parse_bytes("0.5kB", {}), 500u);
+  EXPECT_EQ(parse_bytes("1e3 MB", {}), 1'000'000'000u);
+  BPMS_EXPECT_ERROR(parse_bytes("4", {}), bad_input, "has no unit; write for example 4GiB");
+  BPMS_EXPECT_ERROR(parse_bytes("4 gib", {}), bad_input, "unknown unit of memory 'gib'");
+  BPMS_EXPECT_ERROR(parse_bytes("0 GiB", {}), bad_input, "out of range");
+  BPMS_EXPECT_ERROR(parse_bytes("-1 GiB", {}), bad_input, "out of range");
+  BPMS_EXPECT_ERROR(parse_bytes("GiB", {}), bad_input, "expected a memory such as 25GiB");
+}
+
 }  // namespace
 }  // namespace bpms

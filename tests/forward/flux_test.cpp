@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "simulate/forward/forward.h"
 #include "simulate/transport/basis.h"
+#include "tests/forward/lights.h"
 #include "tests/simulate/hemisphere.h"
 
 namespace bpms::test {
@@ -248,18 +249,12 @@ TEST(Fluxes, SkyIsTheMeanOfSuns) {
 // as the isotropic one.
 TEST(Fluxes, SkyMapsCarryTheirIrradiance) {
   const TemporaryFolder folder;
-  constexpr std::size_t zeniths = 10, azimuths = 24;
   const auto with_map = [&](const SceneText& text, bool even) {
-    Simulation out = simulation_of(folder, text);
-    std::vector<float> radiance;
-    for (std::size_t row = 0; row < zeniths; ++row)
-      for (std::size_t column = 0; column < azimuths; ++column)
-        radiance.push_back(even ? 2.0f
-                                : 1.0f + static_cast<float>(row) *
-                                             (1 + std::sin(static_cast<float>(column) * 0.2618f)));
-    out.light.sky->map = std::make_shared<SkyMap>(zeniths, azimuths, 1, radiance);
-    out.light.sky->radiance = {out.light.sky->map->irradiance()[0] / pi};
-    return out;
+    return with_sky_map(
+        simulation_of(folder, text), [even](std::size_t row, std::size_t column, std::size_t) {
+          return even ? 2.0f
+                      : 1.0f + static_cast<float>(row) * (1 + std::sin(static_cast<float>(column) * 0.2618f));
+        });
   };
   SceneText scene;
   scene.soil = lambertian("0.0");
@@ -290,22 +285,16 @@ TEST(Fluxes, DiscsOfSunsAreTheMeanOfTheirDirections) {
   const FluxResult disc = fluxes_of(simulation);
   const Value direct = flux(disc, Flux::transmitted_direct);
   // Directions evenly over the disc, each with its cosine.
-  constexpr int rings = 8, steps = 12;
   double sum = 0, weight = 0, error = 0;
-  const Eigen::Vector3d centre = simulation.light.suns[0].direction;
-  const Eigen::Vector3d side = centre.unitOrthogonal(), other = centre.cross(side);
-  for (int ring = 0; ring < rings; ++ring) {
-    const double z = 1 - (ring + 0.5) / rings * (1 - std::cos(radians(10))), r = std::sqrt(1 - z * z);
-    for (int step = 0; step < steps; ++step) {
-      const double angle = 2 * pi * (step + 0.5 * (ring % 2)) / steps;
-      Simulation one = simulation_of(folder, scene);
-      one.sampling.samples = 4096;
-      one.light.suns[0].direction = z * centre + r * (std::cos(angle) * side + std::sin(angle) * other);
-      const Value value = flux(fluxes_of(one, {}, static_cast<std::uint64_t>(2 + ring * steps + step)),
-                               Flux::transmitted_direct);
-      const double cosine = one.light.suns[0].direction.z();
-      sum += cosine * value.value, weight += cosine, error += cosine * cosine * value.error * value.error;
-    }
+  std::uint64_t seed = 2;
+  for (const Eigen::Vector3d& direction :
+       disc_directions(simulation.light.suns[0].direction, radians(10), 8, 12)) {
+    Simulation one = simulation_of(folder, scene);
+    one.sampling.samples = 4096;
+    one.light.suns[0].direction = direction;
+    const Value value = flux(fluxes_of(one, {}, seed++), Flux::transmitted_direct);
+    const double cosine = direction.z();
+    sum += cosine * value.value, weight += cosine, error += cosine * cosine * value.error * value.error;
   }
   EXPECT_LT(std::abs(direct.value - sum / weight), 4.5 * std::hypot(direct.error, std::sqrt(error) / weight))
       << direct.value << " and " << sum / weight;
@@ -335,6 +324,176 @@ TEST(Fluxes, LobesScatterAsTheyShould) {
     EXPECT_LT(b.error, 0.02 * b.value);
   }
   EXPECT_NEAR(sum_of(lobes, Flux::absorbed_layer), flux(lobes, Flux::absorbed_canopy).value, 1e-9);
+}
+
+// An open scene: a crown of leaves over ground that the box cuts off.
+SceneText open_crown(const TemporaryFolder& folder) {
+  SceneText scene = canopy_text(folder, {.lai = 2, .size_m = {1, 1}, .bottom_m = 0.2});
+  scene.domain = "boundary = \"open\"";
+  scene.sensor = views("[[0, 0]]");
+  return scene;
+}
+// All that enters comes out or stays.
+void expect_energy_to_close(const FluxResult& result, double soil) {
+  double sum = 0, error = 0;
+  for (const auto& [which, factor] :
+       {std::pair(Flux::reflected, 1.0), std::pair(Flux::absorbed_canopy, 1.0),
+        std::pair(Flux::lost_sides, 1.0), std::pair(Flux::transmitted, 1 - soil)}) {
+    const Value part = flux(result, which);
+    sum += factor * part.value, error += factor * part.error;
+  }
+  EXPECT_NEAR(sum, 1, 4 * error);
+  EXPECT_LT(error, 0.02);
+}
+
+// A disc of a sun over an open scene: the power that enters and the fluxes are the means over its directions,
+// each by what it sends into the box.
+TEST(Fluxes, OpenScenesUnderADiscAreTheMeanOfItsDirections) {
+  const TemporaryFolder folder;
+  SceneText scene = open_crown(folder);
+  scene.sun = sun_at(65, 30);
+  scene.sampling = "samples = 131072";
+  constexpr double radius = radians(15);
+  Simulation simulation = simulation_of(folder, scene);
+  simulation.light.suns[0].radius = radius;
+  const FluxResult disc = fluxes_of(simulation);
+  expect_energy_to_close(disc, 0.2);
+  const std::array which{Flux::reflected, Flux::transmitted_direct, Flux::absorbed_canopy, Flux::lost_sides};
+  std::array<double, 4> sum{}, error{};
+  double weight = 0;
+  const std::vector<Eigen::Vector3d> directions =
+      disc_directions(simulation.light.suns[0].direction, radius, 6, 12);
+  std::uint64_t seed = 2;
+  for (const Eigen::Vector3d& direction : directions) {
+    Simulation one = simulation_of(folder, scene);
+    one.sampling.samples = 4096;
+    one.light.suns[0].direction = direction;
+    const FluxResult result = fluxes_of(one, {}, seed++);
+    // Its irradiance is that on the plane normal to it.
+    const double power = result.entering[0][0];
+    weight += power;
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      const Value value = flux(result, which[i]);
+      sum[i] += power * value.value, error[i] += std::pow(power * value.error, 2);
+    }
+  }
+  // The mean of a disc of even radiance is 2 / (1 + cos r) of its irradiance (see docs/physics.md).
+  EXPECT_NEAR(disc.entering[0][0],
+              weight / static_cast<double>(directions.size()) * 2 / (1 + std::cos(radius)),
+              1e-3 * disc.entering[0][0]);  // of the quadrature with 72 directions
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const Value found = flux(disc, which[i]);
+    EXPECT_LT(std::abs(found.value - sum[i] / weight),
+              4 * std::hypot(found.error, std::sqrt(error[i]) / weight) + 1e-3)
+        << name_of(which[i]) << " " << found.value << " and " << sum[i] / weight;
+  }
+}
+
+// A sky map of one brightness is the isotropic sky; one that is bright on one side sends in what its
+// quadrature says, and all of it comes out again.
+TEST(Fluxes, OpenScenesUnderSkyMaps) {
+  const TemporaryFolder folder;
+  const auto with_map = [&](const SceneText& text, bool even) {
+    return with_sky_map(simulation_of(folder, text), [even](std::size_t, std::size_t column, std::size_t) {
+      return even ? 1.0f : column < 12 ? 4.0f : 0.5f;
+    });
+  };
+  SceneText scene = open_crown(folder);
+  scene.sky = white_sky;
+  scene.sampling = "samples = 262144";
+  const FluxResult plain = fluxes_of(simulation_of(folder, scene)),
+                   even = fluxes_of(with_map(scene, true), {}, 2);
+  EXPECT_NEAR(even.entering[0][0], plain.entering[0][0], 1e-4 * plain.entering[0][0]);
+  for (const Flux which : {Flux::reflected, Flux::transmitted, Flux::transmitted_direct,
+                           Flux::absorbed_canopy, Flux::lost_sides}) {
+    const Value a = flux(even, which), b = flux(plain, which);
+    EXPECT_LT(std::abs(a.value - b.value), 4.5 * std::hypot(a.error, b.error)) << name_of(which);
+  }
+  expect_energy_to_close(even, 0.2);
+  const FluxResult uneven = fluxes_of(with_map(scene, false), {}, 3);
+  expect_energy_to_close(uneven, 0.2);
+  // Bright where the azimuth, clockwise from north, is below 180 degrees: the east. The ground's eastern
+  // half, less in the crown's shade, gets more; in the mirror it would be the western one.
+  const FluxResult mapped = fluxes_of(with_map(scene, false), {.map_px = {2, 1}}, 4);
+  const std::size_t first = mapped.row(Flux::ground_irradiance);
+  const double west = mapped.fraction[0].value[first], east = mapped.fraction[0].value[first + 1];
+  EXPECT_GT(east, 1.05 * west);
+}
+
+// The same leaf in two ways: its left half a cut-out, its right half green, by a map; and as a leaf of half
+// the size.
+TEST(Fluxes, MapsOfMaterialsAreTheMaterialsThereAre) {
+  const TemporaryFolder folder;
+  // (U,V) of the square: U along x.
+  folder.write("leaf.obj",
+               "g leaf1\nv -1 -1 0.5\nv 1 -1 0.5\nv 1 1 0.5\nv -1 1 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+               "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+  folder.write("half.obj", square(0, 1, -1, 1, 0.5));
+  folder.write("halves.pgm", "P2\n2 1\n1\n0 1\n");
+  SceneText scene;
+  scene.leaf = bilambertian("0.4", "0.3");
+  scene.soil = lambertian("0.2");
+  scene.ground = "soil";
+  scene.mesh = "half.obj";
+  scene.sun = sun_at(20, 40);
+  scene.sky = white_sky;
+  scene.sensor = views("[[0, 0]]");
+  scene.sampling = "samples = 131072";
+  const FluxResult half = fluxes_of(simulation_of(folder, scene));
+  scene.leaf =
+      "type = \"map\"\nfile = \"halves.pgm\"\nmaterials = [\"hole\", \"green\"]\n"
+      "[materials.hole]\ntype = \"transparent\"\ntransmittance = 1.0\n[materials.green]\n" +
+      bilambertian("0.4", "0.3");
+  scene.mesh = "leaf.obj";
+  const Simulation simulation = simulation_of(folder, scene);
+  const FluxResult mapped = fluxes_of(simulation, {}, 2);
+  for (const Flux which : {Flux::reflected, Flux::transmitted, Flux::transmitted_first,
+                           Flux::transmitted_direct, Flux::absorbed_canopy, Flux::absorbed_ground}) {
+    const Value a = flux(half, which), b = flux(mapped, which);
+    EXPECT_LT(std::abs(a.value - b.value), 4.5 * std::hypot(a.error, b.error) + 1e-9)
+        << name_of(which) << " " << a.value << " and " << b.value;
+  }
+  for (std::size_t m = 0; m < simulation.materials.size(); ++m) {
+    const std::size_t row = mapped.row(Flux::absorbed_material, static_cast<std::uint32_t>(m));
+    const double absorbed = mapped.fraction[0].value[row];
+    const std::string& name = simulation.materials[m].name;
+    if (name == "soil") continue;
+    EXPECT_NEAR(absorbed, name == "green" ? flux(mapped, Flux::absorbed_canopy).value : 0.0, 1e-9) << name;
+  }
+  // And as the reverse mode sees it.
+  scene.sky.clear();
+  scene.sampling = "samples = 131072";
+  const Value forward = flux(fluxes_of(simulation_of(folder, scene), {}, 3), Flux::reflected);
+  scene.sensor = "name = \"up\"\ntype = \"albedo\"\n";
+  scene.sampling = "samples = 131072";
+  const SensorResult reverse = sensor_result(folder, scene, 4);
+  const double scale = pi / simulation.light.direct_irradiance(1)[0];
+  EXPECT_LT(std::abs(forward.value - reverse.radiance[0].value[0] * scale),
+            4 * std::hypot(forward.error, reverse.radiance[0].standard_error[0] * scale))
+      << forward.value << " and " << reverse.radiance[0].value[0] * scale;
+}
+
+TEST(Fluxes, StopWhenTheirTimeIsOver) {
+  const TemporaryFolder folder;
+  SceneText scene = canopy(folder);
+  scene.sun = sun_at(30, 0);
+  scene.sensor = "name = \"energy\"\ntype = \"flux\"\n";
+  scene.sampling = "target_se = 1e-9\nmax_samples = 100_000_000_000\nmax_seconds = 0.2";
+  const Result result = simulate(simulation_of(folder, scene), 1);
+  EXPECT_EQ(result.stopped_by, "max_seconds");
+  ASSERT_EQ(result.fluxes.size(), 1u);
+  EXPECT_EQ(result.fluxes[0]->stopped_by, "max_seconds");
+  expect_energy_to_close(*result.fluxes[0], 0.2);
+}
+
+TEST(Fluxes, BumpsAreRefused) {
+  const TemporaryFolder folder;
+  folder.write("steps.pgm", "P2\n2 1\n1\n0 1\n");
+  SceneText scene = canopy(folder);
+  scene.leaf += "bump = { file = \"steps.pgm\", height_m = 0.01 }\n";
+  scene.sun = sun_at(30, 0);
+  scene.sampling = "samples = 64";
+  BPMS_EXPECT_ERROR(fluxes_of(simulation_of(folder, scene)), ErrorKind::bad_input, "'leaf' has a bump");
 }
 
 TEST(Fluxes, BandsBeyondALaneGroupAreAsByThemselves) {

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "simulate/forward/shared_views.h"
+#include "tests/forward/lights.h"
 #include "tests/simulate/scene_text.h"
 
 namespace bpms::test {
@@ -128,6 +129,20 @@ TEST(SharedViews, AreTheReverseModesUnderTwoSuns) {
   EXPECT_EQ(of_one_sun, 2u);
   for (std::size_t i = 0; i < 4; ++i)  // views x suns
     EXPECT_LT(std::abs(z_of(forward.result.sunlit_ground, i, reverse.sunlit_ground, i)), 4.5);
+}
+
+// A disc of 12 degrees, as no sun has it, and a sky that is bright on one side.
+TEST(SharedViews, AreTheReverseModesUnderADiscAndASkyMap) {
+  const TemporaryFolder folder;
+  SceneText scene = lit_canopy(folder);
+  scene.sensor = views("[[0, 0], [40, 100], [60, 10]]");
+  scene.sampling = "samples = 65536";
+  Simulation simulation = simulation_of(folder, scene);
+  simulation.light.suns[0].radius = 0.21;
+  expect_the_reverse_mode(
+      with_sky_map(std::move(simulation), [](std::size_t, std::size_t column, std::size_t band) {
+        return column < 12 ? 2.0f + static_cast<float>(band) : 0.5f;
+      }));
 }
 
 TEST(SharedViews, BareGroundIsAsItIs) {

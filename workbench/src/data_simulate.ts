@@ -3,45 +3,31 @@
 import { common } from "./data_common";
 import { list, number, numbers, object, raw, rows, text, type Infer } from "./schema";
 
-const angles = { sza_deg: number, vza_deg: numbers, vaa_deg: numbers, value: numbers, standard_error: numbers };
+// What the rows of the tables below have in common.
+const of = { sensor: text, quantity: text };
+const estimates = { value: numbers, standard_error: numbers };
+const oneBand = { band: text, wavelength_nm: number };
+
 const series = object({
-  ...angles,
-  sensor: text,
-  quantity: text,
-  band: text,
-  wavelength_nm: number,
-  origin: text,
-  component: text,
-  order: number,
-  material: text,
-  saa_deg: number,
-});
+  ...of, ...oneBand, ...estimates,
+  origin: text, component: text, order: number, material: text,
+  sza_deg: number, saa_deg: number, vza_deg: numbers, vaa_deg: numbers,
+}); // prettier-ignore
 export type Series = Infer<typeof series>;
 
-const spectrum = object({
-  sensor: text,
-  quantity: text,
-  vza_deg: number,
-  vaa_deg: number,
-  sza_deg: number,
-  wavelength_nm: numbers,
-  value: numbers,
-  standard_error: numbers,
-});
+const spectrum = object({ ...of, ...estimates, wavelength_nm: numbers, vza_deg: number, vaa_deg: number, sza_deg: number });
 export type Spectrum = Infer<typeof spectrum>;
 
-const orderRow = object({
-  sensor: text,
-  quantity: text,
-  band: text,
-  wavelength_nm: number,
-  value: numbers,
-  standard_error: numbers,
-  ratio: numbers,
-  ratio_standard_error: numbers,
-  enough_order: number,
-});
+const orderRow = object({ ...of, ...oneBand, ...estimates, ratio: numbers, ratio_standard_error: numbers, enough_order: number });
 export type OrderRow = Infer<typeof orderRow>;
+
+// Fractions of the power that enters, an entry a band.
+const fluxes = object({
+  name: text,
+  wavelength_nm: numbers,
+  rows: rows(object({ ...estimates, flux: text, of: text, origin: text })),
+});
+export type Fluxes = Infer<typeof fluxes>;
 
 const picture = object({
   sensor: text,
@@ -69,6 +55,7 @@ const simulateKeys = object({
   orders: rows(orderRow),
   suns: rows(object({ name: text, sza_deg: number, saa_deg: number, gap: number, effective_g: number })),
   band_names: list(text),
+  fluxes: rows(fluxes),
 });
 export type Simulate = Infer<typeof simulateKeys>;
 

@@ -5,6 +5,14 @@ import { ink, quiet, rule } from "./palette";
 
 type Value = number | string | null;
 
+interface ErrorBars {
+  type: "data";
+  array: readonly (number | null)[];
+  thickness?: number;
+  width?: number;
+  color?: string;
+}
+
 export interface Trace {
   type: "scatter" | "bar" | "heatmap";
   x?: readonly Value[];
@@ -21,7 +29,9 @@ export interface Trace {
   textfont?: Record<string, unknown>;
   line?: { color?: string; width?: number; dash?: string; shape?: string };
   marker?: Record<string, unknown>;
-  error_y?: { type: "data"; array: readonly (number | null)[]; thickness?: number; width?: number; color?: string };
+  error_y?: ErrorBars;
+  error_x?: ErrorBars;
+  orientation?: "h";
   fill?: "toself" | "tonexty" | "tozeroy" | "none";
   fillcolor?: string;
   stackgroup?: string;

@@ -1,7 +1,8 @@
 import { expect, test } from "vitest";
-import type { Series } from "../src/data";
+import { simulate, type Series } from "../src/data";
 import { deWit, perDegree } from "../src/figures/dewit";
 import { bandLine, errorLine } from "../src/figures/errorbars";
+import { balance, parts } from "../src/figures/fluxes";
 import { histogram } from "../src/figures/histogram";
 import { inPlane } from "../src/figures/organ_functions";
 import { panelGrid } from "../src/figures/panels";
@@ -148,4 +149,36 @@ test("ratios of orders that are not known are left out", () => {
   const [, ratios] = decaySpec(row).data;
   expect(ratios?.x).toEqual([2, 3]);
   expect(ratios?.y).toEqual([0.5, null]);
+});
+
+const page = simulate({ band_names: ["red", "NIR"] });
+const flux = (name: string, value: number[], of = ""): object => ({ flux: name, of, origin: "total", value, standard_error: value.map(() => 0.001) });
+const numbersOf = (t: { x?: readonly unknown[]; y?: readonly unknown[] } | undefined): number[] => (t?.y ?? []) as number[];
+
+test("what enters is absorbed, reflected or gone: the stack is the whole", () => {
+  const rows = [
+    flux("reflected", [0.05, 0.4]), flux("transmitted", [0.4, 0.5]), flux("absorbed", [0.6, 0.15], "leaf"), flux("absorbed", [0.35, 0.45], "soil"),
+    flux("lost_sides", [0, 0]), { ...flux("reflected", [9, 9]), origin: "direct" },
+  ]; // prettier-ignore
+  const [f] = simulate({ fluxes: [{ name: "f", rows }] }).fluxes;
+  const { data } = balance(page, f as NonNullable<typeof f>);
+  const bars = data.filter((t) => t.type === "bar");
+  expect(bars.map((t) => t.name)).toEqual(["absorbed by leaf", "absorbed by soil", "reflected"]);
+  expect(bars[0]?.x).toEqual(["red", "NIR"]);
+  for (const b of [0, 1]) expect(bars.reduce((sum, t) => sum + (numbersOf(t)[b] ?? 0), 0)).toBeCloseTo(1, 10);
+  expect(data.find((t) => t.type === "scatter")?.y).toEqual([0.4, 0.5]); // at the ground, part of the stack already
+});
+
+test("without a ground what is transmitted is gone, and part of the stack", () => {
+  const rows = [flux("reflected", [0.1, 0.3]), flux("transmitted", [0.3, 0.5]), flux("absorbed", [0.6, 0.2], "leaf")];
+  const [f] = simulate({ fluxes: [{ name: "f", rows }] }).fluxes;
+  const bars = balance(page, f as NonNullable<typeof f>).data;
+  expect(bars.map((t) => [t.type, t.name])).toEqual([["bar", "absorbed by leaf"], ["bar", "transmitted"], ["bar", "reflected"]]); // prettier-ignore
+});
+
+test("layers are bars from the bottom up, a colour for each band", () => {
+  const [f] = simulate({ fluxes: [{ name: "f", wavelength_nm: [650, 850], rows: [flux("absorbed_layer", [0.1, 0.05], "0-1 m"), flux("absorbed_layer", [0.5, 0.1], "1-2 m")] }] }).fluxes;
+  const known = f as NonNullable<typeof f>;
+  const { data } = parts(page, known, known.rows, "layer");
+  expect(data.map((t) => [t.name, t.x, t.y])).toEqual([["red", [0.1, 0.5], ["0-1 m", "1-2 m"]], ["NIR", [0.05, 0.1], ["0-1 m", "1-2 m"]]]); // prettier-ignore
 });

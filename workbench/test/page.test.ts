@@ -41,6 +41,22 @@ test("under a sky the components of the sun's light are shown", () => {
   expect(book.figures.map((f) => f.id)).toContain("simulate-components");
 });
 
+const manyBands = { sensor: "s", quantity: "brf", vza_deg: 0, wavelength_nm: [443, 492, 560], value: [0.1, 0.2, 0.3], standard_error: [0.01, 0.01, 0.01] };
+
+test("fluxes have their figures, for the sensors that have layers and organs", () => {
+  const row = (flux: string, of = "") => ({ flux, of, origin: "total", value: [0.5], standard_error: [0.01] });
+  const all = ["reflected", "transmitted", "absorbed_layer", "absorbed_organ"].map((x) => row(x, "x"));
+  const ids = (rows: object[]): string[] => renderDocument(readDocument({ reports: [{ report: "simulate", fluxes: [{ name: "f", rows }] }] })).book.figures.map((f) => f.id);
+  expect(ids(all)).toEqual(["simulate-fluxes", "simulate-flux-layers", "simulate-flux-organs"]);
+  expect(ids(all.slice(0, 2))).toEqual(["simulate-fluxes"]);
+});
+
+test("a spectrum over the bands of a sensor goes by their names", () => {
+  const spec = (band_names: string[]) => renderDocument(readDocument({ reports: [{ report: "simulate", band_names, spectra: [manyBands] }] })).book.figures[0]?.spec;
+  expect(spec(["B1", "B2", "B3"])?.layout["xaxis"]).toMatchObject({ ticktext: ["B1", "B2", "B3"], tickvals: [0, 1, 2] });
+  expect(spec([])?.layout["xaxis"]).toMatchObject({ title: { text: "wavelength (nm)" } });
+});
+
 test("AICc is compared within one function of one organ", () => {
   const aicc_table = [["inclination", "p", -200], ["inclination", "n", -197], ["twist", "p", 52.5], ["twist", "n", 50]].map(([f, kind, aicc]) => ({ function: f, kind, order: 3, aicc }));
   const { element } = renderDocument(readDocument({ reports: [{ report: "fit", organs: [{ rank: "1", organ: "leaf", aicc_table }] }] }));

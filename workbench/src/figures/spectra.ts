@@ -5,7 +5,7 @@ import type { Simulate } from "../data";
 import { significant } from "../format";
 import { colour } from "../palette";
 import { axisTitle, type Trace } from "../plot";
-import { bandLine } from "./errorbars";
+import { bandLine, errorLine } from "./errorbars";
 import { quantityName } from "./reflectance";
 
 // Of many views a few tell the story: spread evenly over each sensor's list, with the one nearest to nadir.
@@ -24,7 +24,12 @@ function chosen<T extends { sensor: string | null; vza_deg: number | null }>(all
 }
 
 export function spectra(r: Simulate, s: Section): void {
-  const shown = r.spectra.filter((x) => x.wavelength_nm.length > 1);
+  const shown = r.spectra.filter((x) => x.value.length > 1);
+  const names = r.band_names.map((n) => n ?? "");
+  const named =
+    names.length > 0
+      ? { title: axisTitle("band"), tickmode: "array", tickvals: names.map((_, k) => k), ticktext: names, range: [-0.5, names.length - 0.5] }
+      : null;
   const quantities = [...new Set(shown.map((x) => x.quantity))];
   for (const quantity of quantities) {
     const all = shown.filter((x) => x.quantity === quantity);
@@ -37,16 +42,21 @@ export function spectra(r: Simulate, s: Section): void {
           x.sza_deg === null ? null : `sun ${significant(x.sza_deg, 3)}°`,
         ];
         const name = parts.filter((p) => p !== null).join(", ") || `spectrum ${i + 1}`;
-        return bandLine({ x: x.wavelength_nm, y: x.value, se: x.standard_error }, colour(i === 0 ? 0 : i + 1), { name, legendgroup: name, showlegend: true });
+        const look = { name, legendgroup: name, showlegend: true };
+        const c = colour(i === 0 ? 0 : i + 1);
+        // Between the bands of a sensor there is nothing to interpolate: their values stand side by side.
+        return named
+          ? [errorLine({ x: x.value.map((_, k) => k), y: x.value, se: x.standard_error }, c, { ...look, line: { color: c, width: 1, dash: "dot" } })]
+          : bandLine({ x: x.wavelength_nm, y: x.value, se: x.standard_error }, c, look);
       });
     s.plot(
       quantities.length > 1 ? `spectrum-${quantity ?? "value"}` : "spectrum",
       {
         height: 400,
         data,
-        layout: { xaxis: { title: axisTitle("wavelength (nm)") }, yaxis: { title: axisTitle(quantityName(quantity)), rangemode: "tozero" }, showlegend: true },
+        layout: { xaxis: named ?? { title: axisTitle("wavelength (nm)") }, yaxis: { title: axisTitle(quantityName(quantity)), rangemode: "tozero" }, showlegend: true },
       },
-      `Spectrum of the ${quantityName(quantity)} with its band of ±1.96 standard errors; views by zenith and azimuth.` +
+      `Spectrum of the ${quantityName(quantity)} with its ${named ? "bars" : "band"} of ±1.96 standard errors${named ? ", by the sensor's bands" : "; views by zenith and azimuth"}.` +
         (drawn.length < all.length ? ` Of ${all.length} views ${drawn.length} are drawn.` : ""),
     );
   }

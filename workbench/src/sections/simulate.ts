@@ -2,6 +2,7 @@
 
 import type { Section } from "../book";
 import { simulate as read, type Simulate } from "../data";
+import { fluxes } from "../figures/fluxes";
 import { gaps } from "../figures/gaps";
 import { images } from "../figures/pictures";
 import { polarMaps } from "../figures/polar";
@@ -73,6 +74,7 @@ export const simulate = defineSection({
     fractions(r, s);
     gaps(r, s);
     spectra(r, s);
+    fluxes(r, s);
     images(r, s);
     runTable(r, s);
   },

@@ -1,4 +1,4 @@
-#include "simulate/recolour/recording.h"
+#include "simulate/output/recording.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "simulate/forward/flux_options.h"
+#include "simulate/sensors/flux_sensor.h"
 
 namespace bpms {
 
