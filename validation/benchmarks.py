@@ -23,7 +23,7 @@ def chart_of(name, title, frame, forward):
 
 def residuals(name, title, reverse, forward):
     """The differences from the reference in standard errors of both; two of these either way."""
-    chart = Chart(title, "view zenith / degrees, negative on the sun's side", "difference / its standard error", height=220)
+    chart = Chart(title, "view zenith / degrees, negative on the sun's side", "difference / error", height=220)
     ends = [min(reverse.vza), max(reverse.vza)]
     chart.line("2 standard errors", [*ends, math.nan, *ends], [2, 2, math.nan, -2, -2], dashed=True)
     for mode, frame in (("reverse", reverse), ("forward", forward)):
