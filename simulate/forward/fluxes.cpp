@@ -131,7 +131,7 @@ class FluxRun {
 };
 
 // What there is time for, by the pace so far; `done` where it is too little for another round.
-std::uint64_t affordable(std::uint64_t done, FluxClock::time_point start, FluxClock::time_point deadline) {
+std::uint64_t goal_in_time(std::uint64_t done, FluxClock::time_point start, FluxClock::time_point deadline) {
   if (deadline == FluxClock::time_point::max()) return std::numeric_limits<std::uint64_t>::max();
   const auto seconds = [](FluxClock::duration d) { return std::chrono::duration<double>(d).count(); };
   const FluxClock::time_point now = FluxClock::now();
@@ -162,7 +162,7 @@ FluxResult trace_fluxes(const Simulation& simulation, const Intersector& interse
   for (;;) {
     std::uint64_t goal = next_size(sampling, done, reached);
     if (goal == done || (interrupted() && done > 0)) break;
-    if (done > 0) goal = std::min(goal, affordable(done, start, deadline));
+    if (done > 0) goal = std::min(goal, goal_in_time(done, start, deadline));
     if (goal == done) {
       out_of_time = true;
       break;

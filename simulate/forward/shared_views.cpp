@@ -185,19 +185,6 @@ class SharedRun {
   std::uint64_t photon_rays_ = 0, vertices_ = 0, paths_ = 0;
 };
 
-// Orders that no path had.
-void drop_unmet_orders(SensorResult& result) {
-  int highest = 1;
-  for (std::size_t p = 0; p < result.parts.size(); ++p)
-    for (const double value : result.radiance[p].value)
-      if (value != 0) highest = std::max(highest, result.parts[p].order);
-  for (std::size_t p = result.parts.size(); p-- > 0;) {
-    if (result.parts[p].order <= highest) continue;
-    result.parts.erase(result.parts.begin() + static_cast<std::ptrdiff_t>(p));
-    result.radiance.erase(result.radiance.begin() + static_cast<std::ptrdiff_t>(p));
-  }
-}
-
 }  // namespace
 
 bool can_share_paths(const Simulation& simulation, const Sensor& sensor, std::string* why) {
@@ -294,7 +281,7 @@ SharedViews trace_shared_views(const Simulation& simulation, const Intersector& 
     }
   }
   run.finish(result, out.covariance);
-  drop_unmet_orders(result);
+  drop_empty_orders(result);
   write_truncation(sampling, bands, result);
   return out;
 }

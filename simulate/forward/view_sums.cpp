@@ -84,11 +84,11 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays,
                              : stage_->intersector->intersect(start.ray, hit) == Escape::hit;
       if (!met || hit.ground) ++counts.gap;
       if (!met) continue;
-      PathNumbers numbers(key, start.batch);
-      numbers.start(start.sample);
       for (std::size_t sun = 0; sun < rows_.suns; ++sun) {
         Eigen::Vector3f towards = frames_[sun].normal;
         if (cos_radius_[sun] < 1) {
+          PathNumbers numbers(key, start.batch);
+          numbers.start(start.sample);
           const auto [u, v] = numbers.light(0, static_cast<std::uint32_t>(sun));
           towards = even_in_cap(frames_[sun], cos_radius_[sun], u, v);
         }

@@ -192,4 +192,18 @@ void write_truncation(const Sampling& sampling, std::size_t bands, SensorResult&
   }
 }
 
+void drop_empty_orders(SensorResult& result) {
+  int highest = 1;
+  for (std::size_t p = 0; p < result.parts.size(); ++p) {
+    const auto& values = result.radiance[p].value;
+    if (std::any_of(values.begin(), values.end(), [](double v) { return v != 0; }))
+      highest = std::max(highest, result.parts[p].order);
+  }
+  for (std::size_t p = result.parts.size(); p-- > 0;) {
+    if (result.parts[p].order <= highest) continue;
+    result.parts.erase(result.parts.begin() + static_cast<std::ptrdiff_t>(p));
+    result.radiance.erase(result.radiance.begin() + static_cast<std::ptrdiff_t>(p));
+  }
+}
+
 }  // namespace bpms

@@ -33,6 +33,9 @@ void write_light(const std::vector<BatchMeans>& means, const Sources& sources, s
                  SensorResult& result);
 void write_fractions(const std::vector<const ViewCounts*>& counts, std::size_t view, SensorResult& result);
 
+// Leaves out the parts of orders that no path had.
+void drop_empty_orders(SensorResult& result);
+
 // What the orders above max_order would add, from the decay of the last two (a geometric series); NaN where
 // unknown.
 void write_truncation(const Sampling& sampling, std::size_t bands, SensorResult& result);

@@ -16,22 +16,8 @@ std::uint64_t round_up(double paths) {
   return (n + step - 1) / step * step;
 }
 
-void drop_empty_orders(SensorResult& result) {
-  int highest = 1;
-  for (std::size_t p = 0; p < result.parts.size(); ++p) {
-    const auto& values = result.radiance[p].value;
-    if (std::any_of(values.begin(), values.end(), [](double v) { return v != 0; }))
-      highest = std::max(highest, result.parts[p].order);
-  }
-  for (std::size_t p = result.parts.size(); p-- > 0;) {
-    if (result.parts[p].order <= highest) continue;
-    result.parts.erase(result.parts.begin() + static_cast<std::ptrdiff_t>(p));
-    result.radiance.erase(result.radiance.begin() + static_cast<std::ptrdiff_t>(p));
-  }
-}
-
 // The orders that are kept apart.
-Rows rows_of(const Stage& stage) {
+Rows kept_rows(const Stage& stage) {
   const Sampling& sampling = stage.simulation->sampling;
   constexpr int many_orders = 64, few_orders = 10;
   const Carriage carriage = stage.optics.carriage;
@@ -65,7 +51,8 @@ std::uint64_t next_size(const Sampling& sampling, std::uint64_t now, double reac
 std::uint64_t result_bytes(const Stage& stage, const Sensor& sensor) {
   const Simulation& simulation = *stage.simulation;
   const std::size_t suns = simulation.light.suns.size(), bands = simulation.bands.written();
-  const std::size_t parts = parts_of(simulation.light, sensor.is_image() ? 0 : rows_of(stage).orders).size();
+  const std::size_t parts =
+      parts_of(simulation.light, sensor.is_image() ? 0 : kept_rows(stage).orders).size();
   const std::size_t estimates = parts * bands + 1 + 3 * suns * simulation.materials.size() + suns;
   return sensor.views() * (estimates * 2 * sizeof(double) + bands * sizeof(double) + sizeof(std::uint64_t));
 }
@@ -75,7 +62,7 @@ SensorResult run_sensor(Run& run, const Sensor& sensor) {
   const Optics& optics = run.stage->optics;
   const std::size_t bands = simulation.bands.written(), views = sensor.views(),
                     suns = simulation.light.suns.size(), by_material = suns * simulation.materials.size();
-  Rows rows = rows_of(*run.stage);
+  Rows rows = kept_rows(*run.stage);
   SensorResult out;
   out.sensor = &sensor;
   out.parts = parts_of(simulation.light, sensor.is_image() ? 0 : rows.orders);
