@@ -61,7 +61,7 @@ TEST(SharedViewsReference, RamiHet01InTheNearInfrared) {
     const Simulation simulation = simulation_of(folder, scene);
     const Intersector intersector(simulation.scene);
     const SharedViews shared =
-        trace_shared_views(simulation, intersector, *simulation.sensors[0], 11 + run, 0);
+        trace_shared_views(simulation, intersector, *simulation.sensors[0], 111 + run, 0);
     const Estimates& total = shared.result.radiance[0];
     const std::size_t views = rows.size();
     ASSERT_EQ(views, total.value.size());
