@@ -38,8 +38,18 @@ Wave<Tally>::Wave(const Stage& stage, const ParallelRays* view_rays)
       sampling_(stage.simulation->sampling),
       view_rays_(view_rays),
       curve_(stage.extent),
+      paths_(std::move(spare().paths)),
+      next_(std::move(spare().next)),
+      order_(std::move(spare().order)),
+      unsorted_(std::move(spare().unsorted)),
       values_(std::max(lanes, stage.optics.bands)),
       sky_values_(values_.size()) {}
+
+template <class Tally>
+Wave<Tally>::~Wave() {
+  paths_.clear(), next_.clear(), order_.clear();
+  spare() = {std::move(paths_), std::move(next_), std::move(order_), std::move(unsorted_)};
+}
 
 template <class Tally>
 void Wave<Tally>::add(const Sensor& sensor, std::size_t view, const ViewKey& key, std::uint64_t first,
