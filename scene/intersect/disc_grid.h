@@ -28,7 +28,7 @@ class DiscGrid {
   // Null where the scene does not suit, has few discs, a disc is wider than half the period, or the grid
   // would take more bytes.
   static std::unique_ptr<DiscGrid> make(const TracedScene& traced, const Scene& scene,
-                                        std::uint64_t most_bytes = 1u << 28);
+                                        std::uint64_t most_bytes);
 
   std::uint32_t first_id(std::uint32_t instance) const { return first_id_[instance]; }
 

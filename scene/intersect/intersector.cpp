@@ -94,7 +94,13 @@ Intersector::Impl::Impl(const Scene& scene, const IntersectorOptions& options)
   constexpr double least_height_m = 0.1;
   slack = 1e-5 * std::max({std::abs(top), std::abs(bottom), top - bottom, least_height_m});
   lift = traced.instanced() ? lift_instanced : lift_flat;
-  if (options.disc_grid) grid = DiscGrid::make(traced, scene);
+  if (options.disc_grid) {
+    std::uint64_t most_bytes = std::uint64_t{1} << 28;
+    if (options.most_bytes > 0)
+      most_bytes =
+          std::min(most_bytes, options.most_bytes - std::min(options.most_bytes, traced.estimated_bytes()));
+    grid = DiscGrid::make(traced, scene, most_bytes);
+  }
 }
 
 void Intersector::Impl::into_cell(Eigen::Vector3d& point) const {

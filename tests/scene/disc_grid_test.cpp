@@ -188,5 +188,13 @@ TEST(DiscGrid, IsNotMadeWhereMostIsEmpty) {
   EXPECT_EQ(Intersector(scene).memory_bytes(), Intersector(scene, without).memory_bytes());
 }
 
+TEST(DiscGrid, TakesOnlyWhatALimitLeaves) {
+  const Scene scene = block(true, 0.0);
+  IntersectorOptions tight, wide;
+  tight.most_bytes = Intersector(scene).estimated_bytes() + 10'000;
+  wide.most_bytes = tight.most_bytes + 10'000'000;
+  EXPECT_LT(Intersector(scene, tight).memory_bytes(), Intersector(scene, wide).memory_bytes());
+}
+
 }  // namespace
 }  // namespace bpms
