@@ -74,7 +74,7 @@ PathVertices trace_vertices(const PhotonStage& stage, const std::vector<const Pa
   }
   std::vector<std::uint64_t> places(count), spare;
   std::vector<std::uint16_t> piece_of(count);
-  const Curve curve(stage.extent);
+  const MortonCurve curve(stage.extent);
   parallel_for(pieces.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < pieces[i].list.size(); ++k) {
       const std::size_t at = begin[i] + k;

@@ -106,7 +106,7 @@ void PhotonWave<Sink>::run(const PhotonSource& source, const ParallelRays* rays,
   const std::uint32_t shift = source.has_directions() ? 1 : 0;  // that used the first interaction's numbers
   const int most = stage_.simulation->sampling.max_order;
   std::vector<std::uint64_t> spare;
-  const Curve curve(stage_.extent);
+  const MortonCurve curve(stage_.extent);
   const auto sort = [&](std::vector<Photon>& photons) {
     order_.clear();
     for (std::size_t i = 0; i < photons.size(); ++i)

@@ -56,7 +56,7 @@ void ViewSums::add_rays(const ViewKey& key, const ParallelRays* view_rays,
   std::vector<Start> starts;
   std::vector<std::uint64_t> order, spare;
   constexpr std::uint64_t together = 4096;  // of each batch: neighbours read the same squares
-  const Curve unit_curve({{0, 0}, {1, 1}, 1, 0});
+  const MortonCurve unit_curve({{0, 0}, {1, 1}, 1, 0});
   for (std::uint64_t first = rays_; first < last; first += together) {
     starts.clear(), order.clear();
     for (std::size_t batch = 0; batch < batches; ++batch) {

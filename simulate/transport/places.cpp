@@ -5,7 +5,7 @@
 
 namespace bpms {
 
-Curve::Curve(const Extent& extent)
+MortonCurve::MortonCurve(const Extent& extent)
     : low_(static_cast<float>(extent.low_m.x()), static_cast<float>(extent.low_m.y()),
            static_cast<float>(extent.bottom_m)) {
   const Eigen::Vector2d size = extent.high_m - extent.low_m;

@@ -9,9 +9,9 @@
 
 namespace bpms {
 
-class Curve {
+class MortonCurve {
  public:
-  explicit Curve(const Extent& extent);
+  explicit MortonCurve(const Extent& extent);
   // Where along the curve a point is: 24 bits, 256 steps an axis.
   std::uint32_t place(const Eigen::Vector3f& point) const {
     const Eigen::Vector3f cell = (point - low_) * cells_per_m_;

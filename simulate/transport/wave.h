@@ -75,7 +75,7 @@ class Wave {
   const Light& light_;
   const Sampling& sampling_;
   const ParallelRays* view_rays_;
-  Curve curve_;
+  MortonCurve curve_;
   std::vector<PathNumbers> numbers_;
   std::vector<Tally*> tallies_;
   struct Memory {
