@@ -19,14 +19,9 @@ namespace {
 constexpr float inverse_pi = std::numbers::inv_pi_v<float>;
 constexpr std::size_t far_ahead = 20;  // paths: from which on their memory is asked for
 
-// Evenly over the cap of directions within acos(cos_radius) of `centre`.
-Eigen::Vector3f direction_in_cap(const Eigen::Vector3f& centre, float cos_radius,
-                                 const std::array<double, 2>& random) {
-  const double z = 1 - random[0] * (1 - static_cast<double>(cos_radius));
-  const double radius = std::sqrt(std::max(0.0, 1 - z * z)), angle = 2 * std::numbers::pi * random[1];
-  return Basis(centre)
-      .to_world(Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), z).cast<float>())
-      .normalized();
+// Towards some place of the sun's disc.
+Eigen::Vector3f in_disc(const SunOptics& sun, const std::array<double, 2>& random) {
+  return even_in_cap(Basis(sun.direction), static_cast<double>(sun.cos_radius), random[0], random[1]);
 }
 
 }  // namespace
@@ -142,8 +137,7 @@ void Wave<Tally>::receive_sun(const Eigen::Vector3f& normal, const Ray& ray, Pat
     const SunOptics& sun = stage_.suns[s];
     Eigen::Vector3f towards = sun.direction;
     if (sun.radius > 0)
-      towards = direction_in_cap(towards, sun.cos_radius,
-                                 numbers_[path.batch].light(0xffffu, static_cast<std::uint32_t>(s)));
+      towards = in_disc(sun, numbers_[path.batch].light(0xffffu, static_cast<std::uint32_t>(s)));
     const float cosine = normal.dot(towards);
     if (cosine <= 0) continue;
     Weight weight = tally.copy(path.weight);
@@ -374,9 +368,8 @@ bool Wave<Tally>::gather_sun(const Path& path, int order, std::size_t s, bool& b
   Eigen::Vector3f towards = sun.direction;
   if (sun.radius > 0) {
     numbers_[path.batch].start(path.sample, path.branch);
-    towards = direction_in_cap(
-        towards, sun.cos_radius,
-        numbers_[path.batch].light(static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(s)));
+    towards = in_disc(
+        sun, numbers_[path.batch].light(static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(s)));
   }
   behind = (path.normal.dot(towards) > 0) != path.front;
   const SurfaceOptics& surface = stage_.optics.surfaces[path.material];
