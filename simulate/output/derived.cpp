@@ -32,6 +32,13 @@ void set(Estimates& to, std::size_t at, double value, double error) {
   to.standard_error[at] = error;
 }
 
+// -ln p x scale where p has a logarithm.
+void set_logarithm(Estimates& to, std::size_t at, const Estimates& of, double scale, bool known) {
+  const double p = of.value[at];
+  known = known && between(p);
+  set(to, at, known ? -std::log(p) * scale : no_value, known ? of.standard_error[at] / p * scale : no_value);
+}
+
 std::size_t part_number(const SensorResult& result, const Part& wanted) {
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
     const Part& part = result.parts[p];
@@ -86,12 +93,8 @@ Estimates effective_g(const Simulation& simulation, const Result& result, std::s
   const SensorResult& of = result.sensors[sensor];
   const double per_pai = ground_area_m2(simulation.scene) / area;
   out.resize(of.samples.size());
-  for (std::size_t view = 0; view < out.value.size(); ++view) {
-    const double p = of.gap.value[view], scale = view_cosine(of, view) * per_pai;
-    const bool known = of.samples[view] > 0 && between(p);
-    set(out, view, known ? -std::log(p) * scale : no_value,
-        known ? of.gap.standard_error[view] / p * scale : no_value);
-  }
+  for (std::size_t view = 0; view < out.value.size(); ++view)
+    set_logarithm(out, view, of.gap, view_cosine(of, view) * per_pai, of.samples[view] > 0);
   return out;
 }
 
@@ -101,11 +104,8 @@ Estimates effective_g_of_suns(const Simulation& simulation, const Result& result
   if (!simulation.scene.domain.periodic || !(area > 0)) return out;
   const double per_pai = ground_area_m2(simulation.scene) / area;
   out.resize(result.sun_gap.value.size());
-  for (std::size_t sun = 0; sun < out.value.size(); ++sun) {
-    const double p = result.sun_gap.value[sun], scale = simulation.light.suns[sun].direction.z() * per_pai;
-    set(out, sun, between(p) ? -std::log(p) * scale : no_value,
-        between(p) ? result.sun_gap.standard_error[sun] / p * scale : no_value);
-  }
+  for (std::size_t sun = 0; sun < out.value.size(); ++sun)
+    set_logarithm(out, sun, result.sun_gap, simulation.light.suns[sun].direction.z() * per_pai, true);
   return out;
 }
 

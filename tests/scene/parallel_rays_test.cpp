@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "core/units.h"
+#include "scene/intersect/look_ahead.h"
 
 namespace bpms {
 namespace {
@@ -96,6 +97,25 @@ TEST(ParallelRays, AgreeWithTheHierarchyInAPeriodicCell) {
 
 TEST(ParallelRays, AgreeWithTheHierarchyInAnOpenScene) {
   for (const bool alike : {false, true}) expect_the_same(false, alike, radians(30));
+}
+
+TEST(LookAhead, GivesEachRaysOwnLookAlsoWhereSomeAreLeftOut) {
+  const Scene scene = random_scene(true, false);
+  const Intersector intersector(scene);
+  const auto rays = intersector.parallel_rays(scene, Eigen::Vector3d::UnitZ());
+  ASSERT_NE(rays, nullptr);
+  Philox random(4, 4);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 300; ++i)
+    points.push_back(Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 2).cast<float>());
+  LookAhead ahead(*rays, points.size());
+  // One after the other, then some left out, then more than it looks ahead.
+  for (std::size_t i = 0, step = 1; i < points.size(); i += step, step = i < 100 ? 1 : i < 200 ? 3 : 40) {
+    const ParallelRays::Look &look = ahead.at(i, [&](std::size_t k) { return points[k]; }),
+                             expected = rays->look(points[i]);
+    EXPECT_EQ(look.at, expected.at) << i;
+    EXPECT_EQ(look.spot.square, expected.spot.square) << i;
+  }
 }
 
 }  // namespace
