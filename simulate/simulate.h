@@ -2,6 +2,7 @@
 // and the standard error of each number. Reverse Monte Carlo path tracing; definitions and method:
 // docs/physics.md.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -72,6 +73,7 @@ struct Part {
   Component component = Component::all;
   int order = every_order;
   int sun = every_sun;  // of several: this one's light alone
+  bool operator==(const Part&) const = default;
 };
 
 struct Estimates {
@@ -97,7 +99,11 @@ struct SensorResult {
   const Sensor* sensor = nullptr;
   std::vector<Part> parts;
   std::vector<Estimates> radiance;  // for each part: views x bands
-  Estimates gap;                    // per view: rays that meet no canopy on their way to the ground or out
+  // Its place in `parts`, or their number where it is not among them.
+  std::size_t place_of(const Part& part) const {
+    return static_cast<std::size_t>(std::find(parts.begin(), parts.end(), part) - parts.begin());
+  }
+  Estimates gap;  // per view: rays that meet no canopy on their way to the ground or out
   // Of the view, by the material met first: views x suns x materials. lit_behind: of the sunlit part, what is
   // lit on the face that is not seen.
   Estimates sunlit, shaded, lit_behind;

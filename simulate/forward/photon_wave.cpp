@@ -29,27 +29,20 @@ void scatter_diffuse(Photon& photon, const PhotonOptics& optics, const Interacti
 bool scatter_lobes(Photon& photon, const PhotonOptics& optics, InteractionNumbers random, float* weight) {
   const SurfaceOptics& surface = optics.surface(photon.material);
   const std::size_t face = photon.front ? 0 : 1;
-  // The number that chose the way is stretched to choose again.
-  const auto diffuse = static_cast<double>(surface.diffuse_share[face]);
-  if (random.side < diffuse) {
-    random.side /= diffuse;
-    scatter_diffuse(photon, optics, random, surface.diffuse_share[face], weight);
+  const ChosenWay way = choose_way(surface, face, random.side);
+  if (way.lobe == surface.lobes.size()) {
+    scatter_diffuse(photon, optics, random, way.chance, weight);
     return true;
   }
-  double left = random.side - diffuse;
-  std::size_t k = 0;
-  while (k + 1 < surface.lobes.size() && left >= static_cast<double>(surface.lobe_share[k][face]))
-    left -= static_cast<double>(surface.lobe_share[k++][face]);
-  const float chosen = surface.lobe_share[k][face];
-  const LobeOptics& lobe = surface.lobes[k];
-  if (!(chosen > 0)) return false;
+  if (!(way.chance > 0)) return false;
+  const LobeOptics& lobe = surface.lobes[way.lobe];
   const Basis frame(photon.front ? photon.normal : Eigen::Vector3f(-photon.normal));
   const Eigen::Vector3f from = frame.to_local(-photon.direction);
   Eigen::Vector3f to;
   if (from.z() <= 0 || !lobe.lobe->sample(from, static_cast<float>(random.direction_u),
                                           static_cast<float>(random.direction_v), to))
     return false;
-  float scale = 1 / chosen;
+  float scale = 1 / way.chance;
   if (!lobe.lobe->is_delta()) {
     const float density = lobe.lobe->pdf(from, to);
     if (!(density > 0)) return false;

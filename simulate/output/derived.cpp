@@ -39,16 +39,6 @@ void set_logarithm(Estimates& to, std::size_t at, const Estimates& of, double sc
   set(to, at, known ? -std::log(p) * scale : no_value, known ? of.standard_error[at] / p * scale : no_value);
 }
 
-std::size_t part_number(const SensorResult& result, const Part& wanted) {
-  for (std::size_t p = 0; p < result.parts.size(); ++p) {
-    const Part& part = result.parts[p];
-    if (part.origin == wanted.origin && part.component == wanted.component && part.order == wanted.order &&
-        part.sun == wanted.sun)
-      return p;
-  }
-  return result.parts.size();
-}
-
 }  // namespace
 
 double intercepting_area_m2(const Scene& scene) {
@@ -121,8 +111,8 @@ Estimates effective_gamma(const Simulation& simulation, const Result& result, st
   out.standard_error = out.value;
   for (std::size_t sun = 0; sun < suns; ++sun) {
     const int alone = suns > 1 ? static_cast<int>(sun) : every_sun;
-    const std::size_t part = part_number(
-        of, {alone == every_sun ? origin : Origin::direct, Component::co_sgl, every_order, alone});
+    const std::size_t part =
+        of.place_of({alone == every_sun ? origin : Origin::direct, Component::co_sgl, every_order, alone});
     if (part == of.parts.size()) return {};
     const std::vector<double> to_brf = reflectance_scale(simulation, Origin::direct, alone);
     const double p_s = result.sun_gap.value[sun], se_s = result.sun_gap.standard_error[sun];
@@ -149,8 +139,8 @@ Estimates effective_gamma(const Simulation& simulation, const Result& result, st
 Estimates recombined_reflectance(const Simulation& simulation, const SensorResult& result,
                                  const std::vector<double>& diffuse_fraction) {
   Estimates out;
-  const std::size_t direct = part_number(result, {Origin::direct}),
-                    diffuse = part_number(result, {Origin::diffuse}), bands = simulation.bands.written();
+  const std::size_t direct = result.place_of({Origin::direct}), diffuse = result.place_of({Origin::diffuse}),
+                    bands = simulation.bands.written();
   if (direct == result.parts.size() || diffuse == result.parts.size() ||
       result.direct_diffuse_covariance.empty())
     return out;

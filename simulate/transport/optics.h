@@ -62,6 +62,25 @@ struct SurfaceOptics {
   bool lets_through = false;  // a shadow ray, weakened: has a straight lobe, or shadows are attenuated
 };
 
+// The way that a path goes on: the diffuse part (`lobe` is their number) or a lobe, and the chance it had.
+struct ChosenWay {
+  std::size_t lobe;
+  float chance;
+};
+// By `side` in [0, 1), which is stretched to choose again within the diffuse part.
+inline ChosenWay choose_way(const SurfaceOptics& surface, std::size_t face, double& side) {
+  const auto diffuse = static_cast<double>(surface.diffuse_share[face]);
+  if (side < diffuse) {
+    side /= diffuse;
+    return {surface.lobes.size(), surface.diffuse_share[face]};
+  }
+  double left = side - diffuse;
+  std::size_t k = 0;
+  while (k + 1 < surface.lobes.size() && left >= static_cast<double>(surface.lobe_share[k][face]))
+    left -= static_cast<double>(surface.lobe_share[k++][face]);
+  return {k, surface.lobe_share[k][face]};
+}
+
 // Of a material whose properties change over (U,V).
 struct SurfaceMaps {
   const Raster* map = nullptr;

@@ -439,19 +439,11 @@ bool Wave<Tally>::scatter(Path& path, int order) {
   if (surface.diffuse) {
     if (!scatter_diffuse(path, random, 1)) return false;
   } else {
-    // The number that chose the way is stretched to choose again.
-    double left = random.side;
-    const auto diffuse = static_cast<double>(surface.diffuse_share[face]);
-    if (left < diffuse) {
-      random.side = left / diffuse;
-      if (!scatter_diffuse(path, random, surface.diffuse_share[face])) return false;
-    } else {
-      left -= diffuse;
-      std::size_t k = 0;
-      while (k + 1 < surface.lobes.size() && left >= static_cast<double>(surface.lobe_share[k][face]))
-        left -= static_cast<double>(surface.lobe_share[k++][face]);
-      if (!(surface.lobe_share[k][face] > 0)) return false;
-      if (!scatter_lobe(path, surface.lobes[k], random, surface.lobe_share[k][face])) return false;
+    const ChosenWay way = choose_way(surface, face, random.side);
+    if (way.lobe == surface.lobes.size()) {
+      if (!scatter_diffuse(path, random, way.chance)) return false;
+    } else if (!(way.chance > 0) || !scatter_lobe(path, surface.lobes[way.lobe], random, way.chance)) {
+      return false;
     }
   }
   const float strength = path.weight.guide.largest();

@@ -38,15 +38,15 @@ inline SceneText canopy_text(const TemporaryFolder& folder, const RandomDiscs& w
           .discs = "canopy.def"};
 }
 
-// The part of a sensor's results with this origin, component and order.
+inline const Estimates& part_of(const SensorResult& result, const Part& part) {
+  const std::size_t at = result.place_of(part);
+  if (at == result.parts.size()) throw Error(ErrorKind::internal, "no such part");
+  return result.radiance[at];
+}
+// Of all suns together.
 inline const Estimates& part_of(const SensorResult& result, Origin origin,
                                 Component component = Component::all, int order = every_order) {
-  for (std::size_t p = 0; p < result.parts.size(); ++p) {
-    const Part& part = result.parts[p];
-    if (part.origin == origin && part.component == component && part.order == order)
-      return result.radiance[p];
-  }
-  throw Error(ErrorKind::internal, "no such part");
+  return part_of(result, Part{origin, component, order, every_sun});
 }
 
 // A difference in its standard errors.

@@ -11,16 +11,6 @@ namespace {
 
 const RandomDiscs thin{.lai = 1.5, .radius_m = 0.05, .size_m = {2, 2}, .top_m = 1};
 
-std::size_t part_number(const SensorResult& result, const Part& wanted) {
-  for (std::size_t p = 0; p < result.parts.size(); ++p) {
-    const Part& part = result.parts[p];
-    if (part.origin == wanted.origin && part.component == wanted.component && part.order == wanted.order &&
-        part.sun == wanted.sun)
-      return p;
-  }
-  throw Error(ErrorKind::internal, "no such part");
-}
-
 // The paths of a view do not depend on the suns: each sun's part has the very bits of a run with it alone.
 TEST(SeveralSuns, EachIsAsInARunOfItsOwn) {
   const TemporaryFolder folder;
@@ -38,8 +28,8 @@ TEST(SeveralSuns, EachIsAsInARunOfItsOwn) {
       Part own = part;
       own.origin = Origin::direct;
       own.sun = s;
-      const Estimates& of_both = both.radiance[part_number(both, own)];
-      const Estimates& of_one = alone.radiance[part_number(alone, part)];
+      const Estimates& of_both = part_of(both, own);
+      const Estimates& of_one = part_of(alone, part);
       for (std::size_t view = 0; view < 2; ++view) {
         EXPECT_NEAR(of_both.value[view], of_one.value[view], 1e-9);
         EXPECT_NEAR(of_both.standard_error[view], of_one.standard_error[view], 1e-9);
@@ -55,11 +45,10 @@ TEST(SeveralSuns, EachIsAsInARunOfItsOwn) {
   }
   const Estimates& total = both.radiance[0];
   for (std::size_t view = 0; view < 2; ++view)
-    EXPECT_NEAR(
-        total.value[view],
-        both.radiance[part_number(both, {Origin::direct, Component::all, every_order, 0})].value[view] +
-            both.radiance[part_number(both, {Origin::direct, Component::all, every_order, 1})].value[view],
-        1e-9);
+    EXPECT_NEAR(total.value[view],
+                part_of(both, Part{Origin::direct, Component::all, every_order, 0}).value[view] +
+                    part_of(both, Part{Origin::direct, Component::all, every_order, 1}).value[view],
+                1e-9);
 }
 
 // A disc of even radiance above the horizon gives a horizontal plane E cos(zenith of its centre), exactly:
