@@ -11,6 +11,7 @@ struct MeshOptions {
   // Largest distance between triangles and surface. The one-sided area of a leaf agrees with the integral
   // over its surface to 1e-4 at any tolerance that keeps the shape (the width absorbs what the chords lose).
   double tolerance_m = 1e-4;
+  bool parameters = false;  // fill in Mesh::Organ::parameters
 };
 Mesh plant_mesh(const Plant& plant, const MeshOptions& options = {});
 

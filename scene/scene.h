@@ -11,8 +11,8 @@
 
 #include "core/toml.h"
 #include "plant/mesh.h"
+#include "plant/terrain.h"
 #include "scene/geometry/shape.h"
-#include "scene/geometry/terrain.h"
 #include "scene/rotation.h"
 
 namespace bpms {

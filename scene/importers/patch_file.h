@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/geometry/bezier.h"
+#include "plant/geometry/bezier.h"
 
 namespace bpms {
 // `metres_per_unit` scales the coordinates. Whatever is wrong is bad_input with line and column.

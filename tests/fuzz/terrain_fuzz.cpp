@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "scene/importers/terrain_file.h"
+#include "plant/terrain/terrain_file.h"
 #include "tests/fuzz/answer.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

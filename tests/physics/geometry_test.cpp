@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 
 #include "core/random.h"
-#include "scene/geometry/bezier.h"
+#include "plant/geometry/bezier.h"
 #include "tests/physics/physics.h"
 
 namespace bpms::test {

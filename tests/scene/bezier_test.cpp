@@ -1,5 +1,5 @@
 // Patches against surfaces that they are exactly, dicing against the patch, and edges without cracks.
-#include "scene/geometry/bezier.h"
+#include "plant/geometry/bezier.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

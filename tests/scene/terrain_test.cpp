@@ -1,12 +1,12 @@
 // Terrain: what is read, where rays meet it against the heights themselves, cells that repeat, and what is
 // refused.
-#include "scene/geometry/terrain.h"
+#include "plant/terrain.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene/importers/terrain_file.h"
+#include "plant/terrain/terrain_file.h"
 #include "scene/intersect/intersector.h"
 #include "scene/intersect/parallel_rays.h"
 #include "scene/structure/structure.h"

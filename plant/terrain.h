@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "core/toml.h"
 #include "plant/mesh.h"
 
 namespace bpms {
@@ -29,5 +31,10 @@ struct Terrain {
 
 // Fills in the mesh. `repeats`: the normals at the edges are those of the field repeated without end.
 void make_terrain_mesh(Terrain& terrain, bool repeats);
+
+// Of a table with file (an ESRI ASCII grid), centred, offset_m. `periodic_m`: the size of the periodic domain
+// that it must fill and repeat in without a step, or null. The file is added to the inputs.
+std::shared_ptr<const Terrain> read_terrain(const TomlValue& table, const Eigen::Vector2d* periodic_m,
+                                            std::vector<std::string>& inputs);
 
 }  // namespace bpms

@@ -1,4 +1,4 @@
-#include "scene/geometry/bezier.h"
+#include "plant/geometry/bezier.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "scene/importers/terrain_file.h"
+#include "plant/terrain/terrain_file.h"
 
 #include <algorithm>
 #include <cctype>

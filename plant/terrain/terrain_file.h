@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/geometry/terrain.h"
+#include "plant/terrain.h"
 
 namespace bpms {
 // Without a mesh yet. Missing or extra values, and places without data, are bad_input with line and column.

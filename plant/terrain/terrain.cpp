@@ -1,4 +1,4 @@
-#include "scene/geometry/terrain.h"
+#include "plant/terrain.h"
 
 #include <algorithm>
 #include <cmath>
