@@ -23,8 +23,9 @@ struct Mesh {
     double length_m = 0;
     double area_m2 = 0;  // one-sided for leaves, total surface for the rest
     using Named = std::vector<std::pair<std::string, std::string>>;
-    Named properties;  // what the plant text carries along: {"age_d", "12"}
-    Named parameters;  // the attributes as written, {"a_length", "10 cm"}; only where they were asked for
+    Named properties = {};  // what the plant text carries along: {"age_d", "12"}
+    Named parameters =
+        {};  // the attributes as written, {"a_length", "10 cm"}; only where they were asked for
   };
   std::vector<Organ> organs;
 };
