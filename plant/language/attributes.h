@@ -15,6 +15,7 @@ struct ConstantAttribute {
   double OrganAttributes::*member;
   bool angle;
   std::string_view letters;  // organs that have it
+  bool fraction = false;     // of another size: no unit
 };
 // f_inclination n 0 0 1 180: angles in degrees; the width is a fraction.
 struct FunctionAttribute {
@@ -28,6 +29,8 @@ inline constexpr ConstantAttribute constant_attributes[] = {
     {"a_length", &OrganAttributes::length_m, false, "slh"},
     {"a_width", &OrganAttributes::width_m, false, "l"},
     {"a_radius", &OrganAttributes::radius_m, false, "bsh"},
+    {"a_midrib_width", &OrganAttributes::midrib_width, false, "l", true},
+    {"a_midrib_height", &OrganAttributes::midrib_height, false, "l", true},
     {"a_inclination", &OrganAttributes::inclination, true, "bslh+"},
     {"a_azimuth", &OrganAttributes::azimuth, true, "bslh+"},
     {"a_twist", &OrganAttributes::twist, true, "bslh+"},
@@ -40,5 +43,6 @@ inline constexpr FunctionAttribute function_attributes[] = {
     {"f_width", &OrganAttributes::f_width, false, "slh"},
 };
 inline constexpr std::string_view material_letters = "bslh";
+inline constexpr std::string_view section_letters = "l";
 
 }  // namespace bpms

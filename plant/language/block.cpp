@@ -3,6 +3,7 @@
 
 #include "core/nearest.h"
 #include "core/units.h"
+#include "plant/geometry/sections/section.h"
 #include "plant/language/attributes.h"
 #include "plant/language/parse.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double largest_size_m = 1e4;
 constexpr double largest_angle_deg = 1e6;
+constexpr double largest_fraction = 1;
 
 bool begins_like_number(std::string_view text) {
   const char c = text.front();
@@ -42,6 +44,7 @@ class BlockParser {
       parse_attribute(name);
     }
     ++at_;
+    check_section();
     return std::move(block_);
   }
 
@@ -73,6 +76,7 @@ class BlockParser {
   void parse_attribute(std::string_view name) {
     const SourceLocation where = text_.where(at_++);
     if (name == "material") return once(name, where, material_letters), parse_material();
+    if (name == "section") return once(name, where, section_letters), parse_section();
     for (const ConstantAttribute& attribute : constant_attributes) {
       if (attribute.name == name) return once(name, where, attribute.letters), parse_constant(attribute);
     }
@@ -90,6 +94,7 @@ class BlockParser {
       if (letters.find(organ) != std::string_view::npos) out.emplace_back(name);
     };
     add("material", material_letters);
+    add("section", section_letters);
     for (const ConstantAttribute& attribute : constant_attributes) add(attribute.name, attribute.letters);
     for (const FunctionAttribute& attribute : function_attributes) add(attribute.name, attribute.letters);
     return out;
@@ -124,6 +129,39 @@ class BlockParser {
     ++at_;
   }
 
+  void parse_section() {
+    section_at_ = text_.where(at_);
+    if (at_ >= text_.tokens.size())
+      syntax_error(text_.end, "the file ends where a section's name was expected");
+    const std::string_view value = text_.tokens[at_].text;
+    if (!is_leaf_section(value)) {
+      std::string known;
+      for (const std::string& name : leaf_section_names()) known += (known.empty() ? "" : ", ") + name;
+      semantic_error(section_at_, "unknown section {}; known: {}{}", in_quotes(value), known,
+                     did_you_mean(value, leaf_section_names()));
+    }
+    block_.attributes.section = value;
+    ++at_;
+  }
+
+  // What a leaf's section needs, and what it cannot use.
+  void check_section() const {
+    const OrganAttributes& leaf = block_.attributes;
+    const LeafSection& section = leaf_section(leaf.section);
+    const SourceLocation& where = leaf.section.empty() ? block_.where : section_at_;
+    if (!section.has_curvature() && leaf.f_curvature)
+      semantic_error(where, "a section {} has no f_curvature", section.name());
+    const bool given = leaf.midrib_width > 0 || leaf.midrib_height > 0;
+    if (!section.has_raised_midrib() && given)
+      semantic_error(where, "a section {} has no a_midrib_width and no a_midrib_height; raised_midrib has",
+                     section.name());
+    if (section.has_raised_midrib() && !(leaf.midrib_width > 0 && leaf.midrib_height > 0))
+      semantic_error(where, "a section {} needs a_midrib_width and a_midrib_height, over the leaf's width",
+                     section.name());
+    if (const std::string complaint = section.complaint(section_form(leaf, 0)); !complaint.empty())
+      semantic_error(where, "{}", complaint);
+  }
+
   double number(std::string_view what) {
     if (at_ >= text_.tokens.size()) syntax_error(text_.end, "the file ends where {} was expected", what);
     const auto value = parse_number(text_.tokens[at_].text);
@@ -145,6 +183,13 @@ class BlockParser {
       return;
     }
     if (value <= 0) semantic_error(where, "{} is {}, expected a size above 0", attribute.name, value);
+    if (attribute.fraction) {
+      if (value > largest_fraction)
+        semantic_error(where, "{} is {}, expected a fraction of the leaf's width, at most {}", attribute.name,
+                       value, largest_fraction);
+      block_.attributes.*attribute.member = value;
+      return;
+    }
     if (value * metres_ > largest_size_m)
       semantic_error(where, "{} is {} m, expected at most {} m", attribute.name, value * metres_,
                      largest_size_m);
@@ -174,6 +219,7 @@ class BlockParser {
   std::size_t& at_;
   double metres_;
   char letter_ = 0;
+  SourceLocation section_at_;
   Block block_;
   std::vector<std::string_view> seen_;
 };

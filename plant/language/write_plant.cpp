@@ -32,9 +32,11 @@ std::string block_text(const Block& block, double metres) {
   out += " {\n";
   const OrganAttributes& attributes = block.attributes;
   if (!attributes.material.empty()) line("material", attributes.material);
+  if (!attributes.section.empty()) line("section", attributes.section);
   for (const ConstantAttribute& attribute : constant_attributes) {
     const double value = attributes.*attribute.member;
-    if (value != 0) line(attribute.name, rounded(attribute.angle ? degrees(value) : value / metres));
+    const double unit = attribute.fraction ? 1 : metres;
+    if (value != 0) line(attribute.name, rounded(attribute.angle ? degrees(value) : value / unit));
   }
   for (const FunctionAttribute& attribute : function_attributes) {
     if (attributes.*attribute.member)
