@@ -1,7 +1,7 @@
 // The other noun of the plant floor: a canopy, that is plants and where each of their clones stands
 // (canopy.toml). Metres; the domain is centred at the origin; x east, y north; row azimuths clockwise from
 // north, rotations counter-clockwise seen from above. Source: Lewis 1999 (BPMS paper) section 2.1.4; keys in
-// docs/plant_language.md.
+// docs/canopies.md.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>

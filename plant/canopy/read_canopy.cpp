@@ -54,8 +54,8 @@ std::vector<CloneVariation> read_plants(const TomlValue& root, Canopy& canopy) {
     for (const std::string& file : files) {
       auto plant = std::make_shared<Plant>(read_plant(file));
       canopy.notes.insert(canopy.notes.end(), plant->warnings.begin(), plant->warnings.end());
+      canopy.inputs.insert(canopy.inputs.end(), plant->inputs.begin(), plant->inputs.end());
       canopy.plants.push_back({file, std::move(plant), probability / static_cast<double>(files.size())});
-      canopy.inputs.push_back(file);
       out.push_back(variation);
     }
     total += probability;
