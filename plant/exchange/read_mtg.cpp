@@ -5,12 +5,12 @@
 
 #include "core/nearest.h"
 #include "core/text.h"
+#include "plant/exchange/mtg_builder.h"
 #include "plant/exchange/mtg_text.h"
 
 namespace bpms {
 namespace {
 
-constexpr std::size_t most_entities = 5'000'000;
 constexpr int longest_range = 100'000;
 
 struct MtgCode {  // one element of a code: "<E6" or "<<E10"
@@ -181,54 +181,12 @@ class MtgEntities {
     return cursor;
   }
 
-  int scale_of(std::int32_t vertex) const { return mtg_.scale(static_cast<std::size_t>(vertex)); }
-  // The vertex or what it is part of, at `scale` or coarser.
-  std::int32_t at_scale(std::int32_t vertex, int scale) const {
-    while (vertex >= 0 && scale_of(vertex) > scale)
-      vertex = mtg_.vertices[static_cast<std::size_t>(vertex)].complex;
-    return vertex;
-  }
-
   std::int32_t add(const MtgCode& code, int index, std::int32_t cursor) {
-    if (mtg_.vertices.size() >= most_entities)
-      bad_input(lines_.where(code.cell), "more than {} entities", most_entities);
-    const int scale = mtg_.classes[code.symbol].scale;
-    MtgVertex out{code.symbol, index, '/', -1, -1, lines_.number()};
-    std::int32_t attached = cursor;
-    if (code.edge == '/') {
-      out.complex = at_scale(cursor, scale - 1);
-      if (out.complex < 0 && cursor >= 0 && scale > 1 && scale_of(cursor) > 0)
-        bad_input(lines_.where(code.cell), "{} cannot be part of {}: no entity of a coarser scale above it",
-                  in_quotes(code.cell.text), mtg_.label(static_cast<std::size_t>(cursor)));
-      attached = -1;
-      if (out.complex >= 0 && !has_component_[static_cast<std::size_t>(out.complex)]) {
-        has_component_[static_cast<std::size_t>(out.complex)] = true;
-        inherit(out, attached, scale);
-      }
-    } else {
-      out.parent = at_scale(cursor, scale);
-      if (out.parent < 0 || scale_of(out.parent) != scale)
-        bad_input(lines_.where(code.cell), "{}: there is no entity of scale {} before it that it could {}",
-                  in_quotes(code.cell.text), scale, code.edge == '<' ? "follow" : "be borne by");
-      out.edge = code.edge;
-      out.complex = mtg_.vertices[static_cast<std::size_t>(out.parent)].complex;
-      check_relation(out);
-    }
-    mtg_.vertices.push_back(std::move(out));
-    attached_.push_back(attached);
-    has_component_.push_back(false);
-    return static_cast<std::int32_t>(mtg_.vertices.size() - 1);
-  }
-
-  // The first component of what follows or is borne does so too, at its own scale.
-  void inherit(MtgVertex& out, std::int32_t& attached, int scale) {
-    const auto complex = static_cast<std::size_t>(out.complex);
-    if (mtg_.vertices[complex].parent < 0) return;
-    attached = attached_[complex];
-    const std::int32_t parent = at_scale(attached, scale);
-    if (parent < 0 || scale_of(parent) != scale) return;
-    out.parent = parent;
-    out.edge = mtg_.vertices[complex].edge;
+    const std::int32_t out =
+        builder_.add(code.edge, code.symbol, index, cursor, lines_.where(code.cell), code.cell.text);
+    const MtgVertex& vertex = mtg_.vertices[static_cast<std::size_t>(out)];
+    if (code.edge != '/') check_relation(vertex);
+    return out;
   }
 
   void check_relation(const MtgVertex& vertex) {
@@ -243,9 +201,8 @@ class MtgEntities {
   Mtg& mtg_;
   std::unordered_map<std::string, std::uint32_t> symbols_;
   std::set<std::tuple<std::uint32_t, std::uint32_t, char>> allowed_;
-  std::vector<std::int32_t> last_;      // of each column
-  std::vector<std::int32_t> attached_;  // the entity, of any scale, that a vertex was written after
-  std::vector<bool> has_component_;
+  std::vector<std::int32_t> last_;  // of each column
+  MtgBuilder builder_{mtg_};
   std::size_t unlike_ = 0;
   int unlike_line_ = 0;
 };
