@@ -180,9 +180,11 @@ class LeafMesher {
       trial = better(trial);
     }
     LeafStrip strip(trial.rows, trial.columns, point_below_m_);
+    // Coarse levels of detail, whose tolerance is of the order of the width, have more to make up for.
+    const double most_stretch = std::clamp(error_allowed, 0.01, 0.3);
     double factor = 1, area = trial.area_m2;
     for (int i = 0; i < 2; ++i) {
-      factor *= std::clamp(true_area_ / area, 0.99, 1.01);
+      factor *= std::clamp(true_area_ / area, 1 - most_stretch, 1 + most_stretch);
       strip.stretch(factor);
       area = strip.mesh().area_m2();
     }

@@ -1,6 +1,7 @@
 #include "plant/plant_mesh.h"
 
 #include "plant/geometry/mesh_parts.h"
+#include "plant/geometry/organ_rows.h"
 #include "plant/geometry/swept_body.h"
 #include "plant/mesh.h"
 
@@ -11,7 +12,7 @@ double area_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::
   return (b - a).cross(c - a).norm() / 2;
 }
 
-Mesh::Organ organ_row(const PlacedOrgan& organ) {
+Mesh::Organ organ_row(const PlacedOrgan& organ, const Plant& plant, const MeshOptions& options) {
   const OrganAttributes& attributes = *organ.attributes;
   Mesh::Organ row;
   row.id = organ.id;
@@ -19,10 +20,11 @@ Mesh::Organ organ_row(const PlacedOrgan& organ) {
   row.kind = organ_name(organ.kind);
   row.material = attributes.material.empty() ? row.kind : attributes.material;
   row.length_m = organ.kind == OrganKind::bud ? 2 * attributes.radius_m : attributes.length_m;
+  row.properties = organ.properties;
+  if (options.parameters) row.parameters = organ_parameters(attributes, plant.unit);
   return row;
 }
 
-// The sum of its triangles' centroids by their areas.
 void append_organ(const OrganMesh& part, const Eigen::Isometry3d& place, std::uint32_t index,
                   Mesh::Organ& row, Mesh& out) {
   const auto first = static_cast<std::uint32_t>(out.positions_m.size());
@@ -31,20 +33,28 @@ void append_organ(const OrganMesh& part, const Eigen::Isometry3d& place, std::ui
     out.normals.push_back((place.linear() * part.normals[i]).cast<float>());
     out.uv.push_back(part.uv[i].cast<float>());
   }
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (const auto& corners : part.triangles) {
     const std::array<std::uint32_t, 3> triangle{first + corners[0], first + corners[1], first + corners[2]};
-    const Eigen::Vector3d a = out.positions_m[triangle[0]].cast<double>();
-    const Eigen::Vector3d b = out.positions_m[triangle[1]].cast<double>();
-    const Eigen::Vector3d c = out.positions_m[triangle[2]].cast<double>();
-    const double area = area_of(a, b, c);
+    const double area =
+        area_of(out.positions_m[triangle[0]].cast<double>(), out.positions_m[triangle[1]].cast<double>(),
+                out.positions_m[triangle[2]].cast<double>());
     if (area == 0) continue;  // collapsed by single precision: no surface, and no normal to shade it by
     out.triangles.push_back(triangle);
     out.organ_of_triangle.push_back(index);
     row.area_m2 += area;
-    moment += area / 3 * (a + b + c);
   }
-  if (row.area_m2 > 0) row.centroid_m = moment / row.area_m2;
+}
+
+// Of the sheets' rows from `first` on, whose triangles are those from `first_triangle` on.
+void set_centroids(Mesh& mesh, std::size_t first, std::size_t first_triangle) {
+  for (std::size_t t = first_triangle; t < mesh.triangles.size(); ++t) {
+    const auto& corners = mesh.triangles[t];
+    const Eigen::Vector3f sum =
+        mesh.positions_m[corners[0]] + mesh.positions_m[corners[1]] + mesh.positions_m[corners[2]];
+    mesh.organs[mesh.organ_of_triangle[t]].centroid_m += triangle_area_m2(mesh, t) / 3 * sum.cast<double>();
+  }
+  for (std::size_t k = first; k < mesh.organs.size(); ++k)
+    if (mesh.organs[k].area_m2 > 0) mesh.organs[k].centroid_m /= mesh.organs[k].area_m2;
 }
 
 }  // namespace
@@ -60,16 +70,28 @@ Mesh plant_mesh(const Plant& plant, const MeshOptions& options) {
   const std::vector<PlacedOrgan> organs = place_organs(plant);
   out.organs.reserve(organs.size());
   for (const PlacedOrgan& organ : organs) {
-    const auto index = static_cast<std::uint32_t>(out.organs.size());
-    Mesh::Organ& row = out.organs.emplace_back(organ_row(organ));
-    const bool sheet = organ.kind == OrganKind::leaf;
-    const OrganMesh part = sheet ? leaf_mesh(*organ.attributes, options.tolerance_m)
-                                 : swept_mesh(organ.kind, *organ.attributes, options.tolerance_m);
-    append_organ(part, organ.plant_from_organ, index, row, out);
-    if (sheet) continue;
-    const MassProperties mass = swept_mass(swept_body(organ.kind, *organ.attributes));
+    const OrganAttributes& attributes = *organ.attributes;
+    const std::size_t index = out.organs.size(), first_triangle = out.triangles.size();
+    Mesh::Organ& row = out.organs.emplace_back(organ_row(organ, plant, options));
+    const auto append = [&](const OrganMesh& part) {
+      append_organ(part, organ.plant_from_organ, static_cast<std::uint32_t>(index), row, out);
+    };
+    if (organ.kind == OrganKind::leaf) {
+      append(leaf_mesh(attributes, options.tolerance_m));
+      split_senescent(out, first_triangle, attributes);
+      set_centroids(out, index, first_triangle);
+      continue;
+    }
+    const MassProperties mass = organ_mass(organ.kind, attributes);
     row.volume_m3 = mass.volume_m3;
     row.centroid_m = organ.plant_from_organ * mass.centroid_m;
+    if (!options.bodies) {
+      row.area_m2 = mass.area_m2;
+      continue;
+    }
+    OrganMesh part = swept_mesh(organ.kind, attributes, options.tolerance_m);
+    if (attributes.joint > 0) add_joint(part, attributes, options.tolerance_m);
+    append(part);
   }
   return out;
 }

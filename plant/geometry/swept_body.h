@@ -44,5 +44,11 @@ struct MassProperties {
 };
 // By quadrature over the body, exact as long as it does not cut into itself where it bends.
 MassProperties swept_mass(const SweptBody& body);
+// With the sphere at a stem's tip: all its surface counts, and its volume is that which is not in the stem
+// (taken as a straight cylinder there).
+MassProperties organ_mass(OrganKind kind, const OrganAttributes& organ);
+
+// The radius of the sphere at the tip, 0: none.
+double joint_radius_m(const OrganAttributes& stem);
 
 }  // namespace bpms

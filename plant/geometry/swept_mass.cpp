@@ -77,4 +77,31 @@ MassProperties swept_mass(const SweptBody& body) {
   return out;
 }
 
+double joint_radius_m(const OrganAttributes& stem) {
+  const double width = stem.f_width ? std::max(0.0, stem.f_width->value(1)) : 1.0;
+  return stem.joint * width * stem.radius_m;
+}
+
+MassProperties organ_mass(OrganKind kind, const OrganAttributes& organ) {
+  MassProperties out = swept_mass(swept_body(kind, organ));
+  const double ball = joint_radius_m(organ);
+  if (!(ball > 0)) return out;
+  const double r = ball / organ.joint;  // the stem's, there
+  // What the two share lies below the tip: a cylinder up to where it leaves the ball, and the rest of the
+  // ball.
+  const double h = ball > r ? std::sqrt(ball * ball - r * r) : 0;
+  const double cap = pi * (ball - h) * (ball - h) * (2 * ball + h) / 3;
+  const double shared = pi * r * r * h + cap;
+  const double shared_moment =
+      pi * r * r * h * h / 2 + pi * (std::pow(ball, 4) / 4 - ball * ball * h * h / 2 + std::pow(h, 4) / 4);
+  const double whole = 4 * pi / 3 * std::pow(ball, 3);
+  const MidribPoint tip = midrib(organ, {1.0}).back();
+  const Eigen::Vector3d moment =
+      out.volume_m3 * out.centroid_m + (whole - shared) * tip.x_m + shared_moment * tip.frame.col(2);
+  out.area_m2 += 4 * pi * ball * ball;
+  out.volume_m3 += whole - shared;
+  out.centroid_m = moment / out.volume_m3;
+  return out;
+}
+
 }  // namespace bpms

@@ -64,7 +64,7 @@ CanopyStructure canopy_structure(const Scene& scene, const GapOptions& options) 
   std::vector<Mesh> discs;
   discs.reserve(scene.prototypes.size());
   std::vector<WeightedMesh> meshes;
-  std::map<std::string, double> solids;
+  std::map<std::string, double> solids, bodies;
   for (std::size_t p = 0; p < scene.prototypes.size(); ++p) {
     const Prototype& prototype = scene.prototypes[p];
     if (area_factor[p] == 0) continue;
@@ -74,8 +74,18 @@ CanopyStructure canopy_structure(const Scene& scene, const GapOptions& options) 
       for (const Mesh::Organ& organ : discs.back().organs)
         out.material_area_m2[organ.material] += organ.area_m2 * area_factor[p];
     }
-    for (const Shape& shape : prototype.shapes)
-      solids[scene.materials[shape.material]] += shape_area_m2(shape) * area_factor[p];
+    std::vector<bool> solid(prototype.mesh ? prototype.mesh->organs.size() : 0, false);
+    for (std::size_t k = 0; k < prototype.shapes.size(); ++k) {
+      const Shape& shape = prototype.shapes[k];
+      if (const std::uint32_t organ = prototype.organ_of(k); organ != no_organ)
+        solid[organ] = true;
+      else
+        solids[scene.materials[shape.material]] += shape_area_m2(shape) * area_factor[p];
+    }
+    // Organs of shapes have no triangles that the facets' sums would find.
+    for (std::size_t k = 0; k < solid.size(); ++k)
+      if (const Mesh::Organ& organ = prototype.mesh->organs[k]; solid[k])
+        bodies[organ.material] += organ.area_m2 * area_factor[p];
     if (prototype.mesh) {
       meshes.push_back({prototype.mesh.get(), area_factor[p], height_factor[p]});
       for (std::size_t k = 0; k < prototype.mesh->organs.size(); ++k)
@@ -91,6 +101,7 @@ CanopyStructure canopy_structure(const Scene& scene, const GapOptions& options) 
     lowest = *std::min_element(level.terrain->heights_m.begin(), level.terrain->heights_m.end());
   if (!box.empty()) out.height_m = box.high.z() - lowest;
   out.facets = facet_structure(meshes, usual_zenith_angles_deg());
+  for (const auto& [material, area] : bodies) out.facets.other_area_m2[material] += area;
   for (const auto& [material, area] : solids) {
     out.facets.other_area_m2[material] += area;
     out.material_area_m2[material] += area;
