@@ -50,7 +50,8 @@ std::size_t GlbBuffer::add_positions(const std::vector<Eigen::Vector3f>& positio
   return accessor;
 }
 
-std::size_t GlbBuffer::add_floats(const std::vector<float>& values, std::size_t components, const char* type) {
+std::size_t GlbBuffer::add_floats(const std::vector<float>& values, std::size_t components,
+                                  const char* type) {
   return add(values.data(), values.size() / components, components, type, float_type, 0);
 }
 
@@ -62,9 +63,10 @@ Json glb_primitive(GlbBuffer& buffer, const Mesh& mesh, const MeshOfOrgan& part,
     normals.push_back(y_up(mesh.normals[vertex]));
     uv.emplace_back(mesh.uv[vertex].x(), 1 - mesh.uv[vertex].y());  // glTF counts V from the top
   }
-  Json attributes{{"POSITION", buffer.add_positions(positions)},
-                  {"NORMAL", buffer.add(normals.data(), normals.size(), 3, "VEC3", float_type, vertex_target)},
-                  {"TEXCOORD_0", buffer.add(uv.data(), uv.size(), 2, "VEC2", float_type, vertex_target)}};
+  Json attributes{
+      {"POSITION", buffer.add_positions(positions)},
+      {"NORMAL", buffer.add(normals.data(), normals.size(), 3, "VEC3", float_type, vertex_target)},
+      {"TEXCOORD_0", buffer.add(uv.data(), uv.size(), 2, "VEC2", float_type, vertex_target)}};
   const std::size_t indices =
       buffer.add(part.triangles.data(), part.triangles.size(), 3, "SCALAR", unsigned_type, index_target);
   return {{"attributes", attributes}, {"indices", indices}, {"material", material}};
@@ -95,7 +97,7 @@ Json glb_extras(const Mesh::Organ& organ) {
 }
 
 std::string glb_bytes(const Json& document, std::string binary) {
-  std::string text = document.dump();
+  std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   binary.resize((binary.size() + 3) / 4 * 4, '\0');
   const std::size_t chunks = 8 + text.size() + (binary.empty() ? 0 : 8 + binary.size());

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "plant/export/formats.h"
+#include "plant/export/stand_parts.h"
 
 namespace bpms {
 namespace {
@@ -19,13 +19,13 @@ void append(std::string& bytes, T value) {
   bytes.append(raw, sizeof(T));
 }
 
-// A comment ends with its line.
+}  // namespace
+
 std::string in_one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
   return text;
 }
-
-}  // namespace
 
 std::vector<MeshFile> ply_files(const std::string& path, const Mesh& mesh, int plant_id) {
   const MeshMaterials materials = mesh_materials(mesh);
