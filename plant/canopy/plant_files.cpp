@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "core/parallel.h"
 
@@ -78,7 +79,11 @@ PlantSet read_plant_files(const std::vector<std::string>& files) {
   });
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
-  out.inputs = files;
+  std::set<std::string> known;  // plants may share a library
+  for (const CanopyPlant& plant : out.plants) {
+    for (const std::string& input : plant.plant->inputs)
+      if (known.insert(input).second) out.inputs.push_back(input);
+  }
   collect_notes(out);
   return out;
 }

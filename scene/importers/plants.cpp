@@ -70,7 +70,7 @@ Scene plant_scene(const std::string& path) {
   const Plant plant = read_plant(path);
   scene.prototypes.push_back(plant_prototype(plant, plant.name, "", nullptr, {path}, names));
   scene.instances.emplace_back();
-  scene.inputs.push_back(path);
+  scene.inputs = plant.inputs;
   scene.notes = plant.warnings;
   return scene;
 }
