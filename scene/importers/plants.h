@@ -12,7 +12,7 @@ namespace bpms {
 // The prototype of a plant; its materials by their own names unless `all` or `renamed` say otherwise.
 Prototype plant_prototype(const Plant& plant, const std::string& name, const std::string& all,
                           const TomlValue* renamed, const SourceLocation& where, MaterialNames& names);
-// Adds a canopy's plants and clones to the scene; the domain is left as it is.
+// Adds a canopy's plants and clones, and its ground if it has one, to the scene; the domain is left as it is.
 void add_canopy(const Canopy& canopy, const SourceLocation& where, MaterialNames& names, Scene& scene);
 
 // Scenes for a look at a structure alone: no ground, materials by the names in the plants.
