@@ -49,27 +49,37 @@ TEST(PlantBodies, AreShapesThatBelongToTheirOrgans) {
 }
 
 TEST(PlantBodies, HaveTheStructureOfTheirTriangles) {
-  GapOptions options;
-  options.rays = 1 << 14;
+  StructureOptions options;
+  options.gaps.rays = 1 << 14;
   const CanopyStructure solids = canopy_structure(stand(stems_text, PlantBodies::solids), options);
-  options.seed = 2;
+  options.gaps.seed = 2;
   const CanopyStructure triangles = canopy_structure(stand(stems_text, PlantBodies::triangles), options);
   for (const char* material : {"culm", "node", "ear"}) {
-    const double area = triangles.material_area_m2.at(material);
-    EXPECT_NEAR(solids.material_area_m2.at(material), area, 0.01 * area) << material;
-    EXPECT_NEAR(solids.facets.other_area_m2.at(material), area, 0.01 * area) << material;
+    const double area = triangles.surface.materials.at(material).other_m2;
+    EXPECT_NEAR(solids.surface.materials.at(material).other_m2, area, 0.01 * area) << material;
   }
+  EXPECT_NEAR(solids.surface.stem_area_m2, triangles.surface.stem_area_m2,
+              0.01 * solids.surface.stem_area_m2);
+  // Which way it looks: hidden ends would show as surface across the stems.
+  for (const double zenith : {0.0, 0.6, 1.2, 1.5}) {
+    EXPECT_NEAR(solids.surface.plant_g(zenith), triangles.surface.plant_g(zenith), 0.005) << zenith;
+  }
+  // The organs' own areas, without what is hidden inside.
+  const Prototype prototype = stand(stems_text, PlantBodies::solids).prototypes[0];
+  ASSERT_EQ(solids.tables.organs.size(), prototype.mesh->organs.size());
+  for (std::size_t k = 0; k < solids.tables.organs.size(); ++k)
+    EXPECT_NEAR(solids.tables.organs[k].area_m2, prototype.mesh->organs[k].area_m2, 1e-9);
   EXPECT_NEAR(solids.height_m, triangles.height_m, 2e-4);
   // The ground areas are hulls of the plan view, a tolerance apart: what is covered is compared.
   ASSERT_EQ(solids.gaps.size(), triangles.gaps.size());
   for (std::size_t k = 0; k < solids.gaps.size(); ++k) {
-    const Gap &a = solids.gaps[k], &b = triangles.gaps[k];
+    const GapShare &a = solids.gaps[k].plant, &b = triangles.gaps[k].plant;
     const double covered_a = (1 - a.p) * solids.ground_area_m2,
                  covered_b = (1 - b.p) * triangles.ground_area_m2;
     const double error =
         std::hypot(a.standard_error * solids.ground_area_m2, b.standard_error * triangles.ground_area_m2);
     // Four standard errors of nineteen comparisons, and the facets' share.
-    EXPECT_NEAR(covered_a, covered_b, 4 * error + 2e-3 * covered_b) << a.zenith_deg;
+    EXPECT_NEAR(covered_a, covered_b, 4 * error + 2e-3 * covered_b) << solids.gaps[k].zenith_deg();
   }
 }
 
