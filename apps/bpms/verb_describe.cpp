@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/toml.h"
+#include "plant/plant_file.h"
 #include "scene/importers/plants.h"
 #include "scene/structure/structure.h"
 
@@ -20,7 +21,8 @@ struct DescribeArguments {
 
 // A plant, a canopy or a scene, told by name and content.
 Scene read_structure(const std::string& path) {
-  if (path.ends_with(".bpms")) return plant_scene(path);
+  if (is_plant_file(path)) return plant_scene(path);
+  if (path.ends_with(".ops")) return ops_scene(path);
   const TomlDocument document = TomlDocument::read(path);
   if (document.root().has("planting") || document.root().has("plants")) return canopy_scene(path);
   Scene scene = read_scene_geometry(document);
