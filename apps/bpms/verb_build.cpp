@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/bpms/build_exchange.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "core/atomic_file.h"
@@ -19,6 +20,7 @@ struct BuildArguments {
   std::vector<std::string> also;  // further outputs
   std::string tolerance = "0.1mm";
   bool lenient = false;
+  ExchangeArguments exchange;
 };
 
 double tolerance_m(const std::string& text) {
@@ -76,6 +78,7 @@ void run(const Cli& cli, const BuildArguments& options) {
   std::vector<std::string> outputs{require_output(cli)};
   outputs.insert(outputs.end(), options.also.begin(), options.also.end());
   const double tolerance = tolerance_m(options.tolerance);
+  if (build_exchange(cli, {options.plant, outputs, tolerance, options.lenient}, options.exchange)) return;
   std::vector<std::string> files;
   for (const std::string& output : outputs) {
     for (const std::string& path : mesh_file_paths(output)) files.push_back(path);
@@ -98,10 +101,13 @@ void run(const Cli& cli, const BuildArguments& options) {
 
 void add_build(Cli& cli) {
   auto options = std::make_shared<BuildArguments>();
-  CLI::App* verb = add_verb(cli, "build", "geometry of a plant: PLY, OBJ or GLB",
+  CLI::App* verb = add_verb(cli, "build", "geometry of a plant or a stand: PLY, OBJ, GLB; MTG, OPF, OPS",
                             "bpms build wheat.bpms -o wheat.ply --also wheat.glb",
                             [&cli, options] { run(cli, *options); });
-  verb->add_option("plant", options->plant, "plant file (.bpms)")->required();
+  verb->add_option("plant", options->plant,
+                   "plant (.bpms, .mtg, .opf, .lsys, .lstr) or stand (canopy.toml, .ops)")
+      ->required();
+  add_exchange_options(verb, options->exchange);
   verb->add_option("--also", options->also, "further outputs, each of a kind told by its name");
   verb->add_option("--tolerance", options->tolerance,
                    "largest distance between triangles and surface (default 0.1mm)");

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "core/toml.h"
 #include "core/units.h"
+#include "plant/plant_file.h"
 #include "scene/importers/mesh_file.h"
 #include "scene/importers/plants.h"
 #include "scene/structure/structure_report.h"
@@ -98,7 +99,8 @@ Scene read_structure(const DescribeArguments& options) {
   if (!options.leaves.empty() || !options.unit.empty() || !options.up.empty())
     throw Error(ErrorKind::bad_input,
                 "--leaves, --unit and --up are for mesh files (.ply, .obj, .glb, .gltf)");
-  if (path.ends_with(".bpms")) return plant_scene(path);
+  if (is_plant_file(path)) return plant_scene(path);
+  if (path.ends_with(".ops")) return ops_scene(path);
   const TomlDocument document = TomlDocument::read(path);
   if (document.root().has("planting") || document.root().has("plants")) return canopy_scene(path);
   Scene scene = read_scene_geometry(document);

@@ -3,20 +3,13 @@
 #include <filesystem>
 
 #include "core/parallel.h"
+#include "plant/plant_file.h"
 #include "plant/plant_mesh.h"
+#include "plant/stand_file.h"
 
 namespace bpms {
 
 namespace {
-
-Prototype mesh_prototype(std::shared_ptr<const Mesh> mesh, const std::string& name, const std::string& all,
-                         const TomlValue* renamed, const SourceLocation& where, MaterialNames& names) {
-  Prototype out;
-  out.name = name;
-  out.mesh = std::move(mesh);
-  out.material_of_organ = organ_materials(*out.mesh, all, renamed, where, names);
-  return out;
-}
 
 // The meshes of a canopy's plants, made on all threads where planting has not made them.
 std::vector<std::shared_ptr<const Mesh>> canopy_meshes(const Canopy& canopy) {
@@ -36,6 +29,15 @@ Rotation rotation_of(const Placement& p) {
 }
 
 }  // namespace
+
+Prototype mesh_prototype(std::shared_ptr<const Mesh> mesh, const std::string& name, const std::string& all,
+                         const TomlValue* renamed, const SourceLocation& where, MaterialNames& names) {
+  Prototype out;
+  out.name = name;
+  out.mesh = std::move(mesh);
+  out.material_of_organ = organ_materials(*out.mesh, all, renamed, where, names);
+  return out;
+}
 
 Prototype plant_prototype(const Plant& plant, const std::string& name, const std::string& all,
                           const TomlValue* renamed, const SourceLocation& where, MaterialNames& names) {
@@ -67,11 +69,37 @@ Scene plant_scene(const std::string& path) {
   Scene scene;
   scene.domain.periodic = false;
   MaterialNames names(scene);
-  const Plant plant = read_plant(path);
-  scene.prototypes.push_back(plant_prototype(plant, plant.name, "", nullptr, {path}, names));
+  PlantFile plant = read_plant_file(path);
+  scene.prototypes.push_back(mesh_prototype(std::make_shared<const Mesh>(std::move(plant.mesh)), plant.name,
+                                            "", nullptr, {path}, names));
   scene.instances.emplace_back();
   scene.inputs = plant.inputs;
-  scene.notes = plant.warnings;
+  scene.notes = plant.notes;
+  return scene;
+}
+
+Scene ops_scene(const std::string& path) {
+  Scene scene;
+  scene.domain.periodic = false;
+  scene.inputs.push_back(path);
+  MaterialNames names(scene);
+  const Stand stand = ops_stand(path, [&](const std::string& file) {
+    PlantFile plant = read_plant_file(file);
+    scene.inputs.insert(scene.inputs.end(), plant.inputs.begin(), plant.inputs.end());
+    scene.notes.insert(scene.notes.end(), plant.notes.begin(), plant.notes.end());
+    return std::make_shared<const Mesh>(std::move(plant.mesh));
+  });
+  // The plot's corner is its origin; ours is the middle of the domain.
+  scene.domain.size_m = stand.places.size_m;
+  const Eigen::Vector3d middle(stand.places.origin_m.x() + stand.places.size_m.x() / 2,
+                               stand.places.origin_m.y() + stand.places.size_m.y() / 2, 0);
+  for (std::size_t i = 0; i < stand.meshes.size(); ++i)
+    scene.prototypes.push_back(mesh_prototype(stand.meshes[i], stand.names[i], "", nullptr, {path}, names));
+  for (std::size_t i = 0; i < stand.items.size(); ++i) {
+    const OpsRow& row = stand.places.rows[i];
+    const Eigen::Quaterniond turn(Eigen::Matrix3d(row.world_from_plant().linear() / row.scale));
+    scene.instances.push_back({stand.items[i].mesh, row.position_m - middle, Rotation(turn), row.scale});
+  }
   return scene;
 }
 

@@ -12,11 +12,15 @@ namespace bpms {
 // The prototype of a plant; its materials by their own names unless `all` or `renamed` say otherwise.
 Prototype plant_prototype(const Plant& plant, const std::string& name, const std::string& all,
                           const TomlValue* renamed, const SourceLocation& where, MaterialNames& names);
+// The same for a mesh that is there already.
+Prototype mesh_prototype(std::shared_ptr<const Mesh> mesh, const std::string& name, const std::string& all,
+                         const TomlValue* renamed, const SourceLocation& where, MaterialNames& names);
 // Adds a canopy's plants and clones, and its ground if it has one, to the scene; the domain is left as it is.
 void add_canopy(const Canopy& canopy, const SourceLocation& where, MaterialNames& names, Scene& scene);
 
 // Scenes for a look at a structure alone: no ground, materials by the names in the plants.
-Scene plant_scene(const std::string& path);   // one plant at the origin, open domain
+Scene plant_scene(const std::string& path);   // one plant of any kind at the origin, open domain
+Scene ops_scene(const std::string& path);     // plants of an OPS file in its plot, open domain
 Scene canopy_scene(const std::string& path);  // a canopy in its own domain
 
 }  // namespace bpms
