@@ -177,12 +177,14 @@ TEST_F(OverlapTest, AgreesWithAllPairsOfTriangles) {
           for (int x = -images; x <= images; ++x) {
             for (int y = -images; y <= images; ++y) {
               if (j == i && x == 0 && y == 0) continue;
-              for (TriangleCorners other : world[j]) {
+              const Eigen::Vector3d by(0.25 * x, 0.2 * y, 0);
+              const double size = 0.1;  // none of the triangles is larger
+              for (const TriangleCorners& unmoved : world[j]) {
                 if (crosses) break;
-                for (Eigen::Vector3d& corner : other) corner += Eigen::Vector3d(0.25 * x, 0.2 * y, 0);
-                const double size = 0.1;  // none of the triangles is larger
-                crosses =
-                    (other[0] - world[i][t][0]).norm() < 2 * size && triangles_cross(world[i][t], other);
+                if ((unmoved[0] + by - world[i][t][0]).squaredNorm() > 4 * size * size) continue;
+                TriangleCorners other = unmoved;
+                for (Eigen::Vector3d& corner : other) corner += by;
+                crosses = triangles_cross(world[i][t], other);
               }
             }
           }
