@@ -149,8 +149,7 @@ TEST_F(OverlapTest, AgreesWithAllPairsOfTriangles) {
   folder.write("bush.bpms",
                "units cm [s[+l][+l][+l]] s { material stem a_length 6 a_radius 0.2 } + 1 { a_twist 10 } + 2 "
                "{ a_twist 130 } + 3 { "
-               "a_twist 250 } l { material leaf a_length 12 a_width 2 f_inclination n 0 40 1 100 f_curvature "
-               "n 0 30 1 5 }");
+               "a_twist 250 } l { material leaf a_length 12 a_width 2 f_inclination n 0 40 1 100 }");
   for (const std::string boundary : {"open", "periodic"}) {
     Canopy canopy = read("size_m = [0.25, 0.2]\nboundary = \"" + boundary + "\"",
                          "pattern = \"random\"\ndensity_per_m2 = 80\n", "[overlap]\n",
