@@ -201,7 +201,7 @@ TEST(PlantLanguage, NotesWhatIsUnusedMissingOrAmbiguous) {
 
 TEST(PlantLanguage, TheExamplesRead) {
   for (const char* name : {"grass", "figure1", "figure1_leaves", "figure2_0", "figure2_45", "figure2_90",
-                           "figure2_135", "figure2_180"}) {
+                           "figure2_135", "figure2_180", "wheat", "fern"}) {
     const Plant plant = read_plant(std::string(BPMS_SOURCE_DIR) + "/examples/plants/" + name + ".bpms");
     EXPECT_THAT(plant.warnings, IsEmpty()) << name;
     EXPECT_EQ(plant.name, name);
