@@ -45,7 +45,9 @@ struct MtgVertex {
   char edge = '/';            // to the parent: '<' or '+'; '/': no parent
   std::int32_t parent = -1;   // at the same scale
   std::int32_t complex = -1;  // what it is part of
-  int line = 0;               // of the file; 0: not from a file
+  std::int32_t after =
+      -1;        // what it was said to follow or to be borne by, perhaps at a finer scale; -1 with '/'
+  int line = 0;  // of the file; 0: not from a file
   std::vector<MtgValue> values = {};
 };
 

@@ -63,8 +63,8 @@ std::vector<std::string> mtg_in_words(const Mtg& mtg) {
   for (std::size_t v = 0; v < mtg.vertices.size(); ++v) {
     const MtgVertex& vertex = mtg.vertices[v];
     const auto of = [&](std::int32_t at) { return at < 0 ? 0 : path[static_cast<std::size_t>(at)]; };
-    std::string words = fmt::format("{}{}@{} {:x} {:x}", vertex.edge, mtg.label(v), mtg.scale(v),
-                                    of(vertex.parent), of(vertex.complex));
+    std::string words = fmt::format("{}{}@{} {:x} {:x} {:x}", vertex.edge, mtg.label(v), mtg.scale(v),
+                                    of(vertex.parent), of(vertex.complex), of(vertex.after));
     path[v] = hash(words);
     std::map<std::string, std::string> values;
     for (const MtgValue& value : vertex.values) values[mtg.features[value.feature].name] = value.text;

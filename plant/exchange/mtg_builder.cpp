@@ -13,7 +13,7 @@ std::int32_t MtgBuilder::add(char edge, std::uint32_t symbol, int index, std::in
   constexpr std::size_t most_entities = 5'000'000;
   if (mtg_.vertices.size() >= most_entities) bad_input(where, "more than {} entities", most_entities);
   const int scale = mtg_.classes[symbol].scale;
-  MtgVertex out{symbol, index, '/', -1, -1, where.line};
+  MtgVertex out{symbol, index, '/', -1, -1, -1, where.line};
   std::int32_t attached = cursor;
   if (edge == '/') {
     out.complex = at_scale(cursor, scale - 1);
@@ -31,6 +31,7 @@ std::int32_t MtgBuilder::add(char edge, std::uint32_t symbol, int index, std::in
       bad_input(where, "{}: there is no entity of scale {} before it that it could {}", in_quotes(said),
                 scale, edge == '<' ? "follow" : "be borne by");
     out.edge = edge;
+    out.after = cursor;
     out.complex = mtg_.vertices[static_cast<std::size_t>(out.parent)].complex;
   }
   mtg_.vertices.push_back(std::move(out));

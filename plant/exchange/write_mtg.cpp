@@ -53,15 +53,18 @@ class MtgWriter {
     const auto count = static_cast<std::int32_t>(mtg_.vertices.size());
     std::vector<std::int32_t> attached(mtg_.vertices.size()), first(mtg_.vertices.size(), -1);
     for (std::int32_t v = count; v-- > 0;) {
-      if (at(v).parent >= v || at(v).complex >= v) refuse(v, "it stands before what it belongs to");
+      if (at(v).parent >= v || at(v).complex >= v || at(v).after >= v)
+        refuse(v, "it stands before what it belongs to");
       if (at(v).complex >= 0) first[static_cast<std::size_t>(at(v).complex)] = v;
     }
-    // Components come behind their complex, so that from the end the finest attachment is known first.
-    for (std::int32_t v = 0; v < count; ++v) attached[static_cast<std::size_t>(v)] = at(v).parent;
+    // What was not said to follow a finer entity follows where its first component does; components come
+    // behind their complex, so that from the end the finest is known first.
+    for (std::int32_t v = 0; v < count; ++v)
+      attached[static_cast<std::size_t>(v)] = at(v).after >= 0 ? at(v).after : at(v).parent;
     for (std::int32_t v = count; v-- > 0;) {
       const std::int32_t complex = at(v).complex;
-      if (complex >= 0 && first[static_cast<std::size_t>(complex)] == v && at(v).parent >= 0 &&
-          at(at(v).parent).complex != complex)
+      if (complex >= 0 && at(complex).after < 0 && first[static_cast<std::size_t>(complex)] == v &&
+          at(v).parent >= 0 && at(at(v).parent).complex != complex)
         attached[static_cast<std::size_t>(complex)] = attached[static_cast<std::size_t>(v)];
     }
     said_.resize(mtg_.vertices.size());

@@ -105,11 +105,12 @@ class OpfWriter {
     std::vector<std::int32_t> attached(count), first(count, -1), holder(count, -1);
     for (std::size_t v = count; v-- > 0;)
       if (at(v).complex >= 0) first[static_cast<std::size_t>(at(v).complex)] = static_cast<std::int32_t>(v);
-    for (std::size_t v = 0; v < count; ++v) attached[v] = at(v).parent;
+    for (std::size_t v = 0; v < count; ++v) attached[v] = at(v).after >= 0 ? at(v).after : at(v).parent;
     for (std::size_t v = count; v-- > 0;) {
       const std::int32_t complex = at(v).complex;
-      if (complex >= 0 && first[static_cast<std::size_t>(complex)] == static_cast<std::int32_t>(v) &&
-          at(v).parent >= 0 && at(static_cast<std::size_t>(at(v).parent)).complex != complex)
+      if (complex >= 0 && at(static_cast<std::size_t>(complex)).after < 0 &&
+          first[static_cast<std::size_t>(complex)] == static_cast<std::int32_t>(v) && at(v).parent >= 0 &&
+          at(static_cast<std::size_t>(at(v).parent)).complex != complex)
         attached[static_cast<std::size_t>(complex)] = attached[v];
     }
     edge_.resize(count);

@@ -46,6 +46,7 @@ Mtg random_mtg() {
       if (what == 3 && at(parent).complex >= 0) parent = at(parent).complex;
       v.symbol = at(parent).symbol;
       v.parent = parent;
+      v.after = from;
       v.complex = at(parent).complex;
       v.edge = *rc::gen::element('<', '+');
     }
