@@ -1,22 +1,94 @@
 #include "scene/importers/plants.h"
 
 #include <filesystem>
+#include <map>
 
 #include "core/parallel.h"
 #include "plant/plant_file.h"
 #include "plant/plant_mesh.h"
+#include "plant/plant_solids.h"
 #include "plant/stand_file.h"
 
 namespace bpms {
 
 namespace {
 
-// The meshes of a canopy's plants, made on all threads where planting has not made them.
-std::vector<std::shared_ptr<const Mesh>> canopy_meshes(const Canopy& canopy) {
-  std::vector<std::shared_ptr<const Mesh>> out(canopy.plants.size());
+// What of a plant is traced: leaves as triangles, the other organs as solids (none: as triangles, too).
+struct PlantParts {
+  std::shared_ptr<const Mesh> mesh;
+  std::vector<PlantSolid> solids;
+};
+
+// Without the triangles of the organs that the solids stand for; all organs keep their rows.
+std::shared_ptr<const Mesh> without_bodies(const Mesh& mesh) {
+  auto out = std::make_shared<Mesh>(mesh);
+  out->triangles.clear();
+  out->organ_of_triangle.clear();
+  std::vector<std::uint32_t> number(mesh.positions_m.size(), no_organ);
+  std::uint32_t used = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.organs[mesh.organ_of_triangle[t]].kind != organ_name(OrganKind::leaf)) continue;
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = mesh.triangles[t][k];
+      if (number[vertex] == no_organ) {
+        number[vertex] = used;
+        out->positions_m[used] = mesh.positions_m[vertex];
+        out->normals[used] = mesh.normals[vertex];
+        out->uv[used] = mesh.uv[vertex];
+        ++used;
+      }
+      corners[k] = number[vertex];
+    }
+    out->triangles.push_back(corners);
+    out->organ_of_triangle.push_back(mesh.organ_of_triangle[t]);
+  }
+  out->positions_m.resize(used);
+  out->normals.resize(used);
+  out->uv.resize(used);
+  return out;
+}
+
+PlantParts plant_parts(const Plant& plant, PlantBodies bodies, const std::shared_ptr<const Mesh>& made = {}) {
+  if (bodies == PlantBodies::triangles)
+    return {made ? made : std::make_shared<const Mesh>(plant_mesh(plant)), {}};
+  MeshOptions leaves;
+  leaves.bodies = false;
+  return {made ? without_bodies(*made) : std::make_shared<const Mesh>(plant_mesh(plant, leaves)),
+          plant_solids(plant, leaves.tolerance_m)};
+}
+
+Shape shape_of_solid(const PlantSolid& solid, std::uint32_t material) {
+  if (solid.kind == PlantSolid::Kind::frustum)
+    return cylinder(solid.from_m, solid.to_m, solid.first_radius_m, solid.second_radius_m, true, material);
+  const Eigen::Vector3d axis = solid.to_m - solid.from_m;
+  const double half = axis.norm() / 2;
+  return ellipsoid((solid.from_m + solid.to_m) / 2, {solid.first_radius_m, solid.first_radius_m, half},
+                   Rotation(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis)), material);
+}
+
+Prototype prototype_of(PlantParts parts, const std::string& name, const std::string& all,
+                       const TomlValue* renamed, const SourceLocation& where, MaterialNames& names) {
+  Prototype out;
+  out.name = name;
+  out.mesh = std::move(parts.mesh);
+  out.material_of_organ = organ_materials(*out.mesh, all, renamed, where, names);
+  std::map<int, std::uint32_t> organ_of_id;
+  for (std::size_t k = 0; k < out.mesh->organs.size(); ++k)
+    organ_of_id.emplace(out.mesh->organs[k].id, static_cast<std::uint32_t>(k));
+  for (const PlantSolid& solid : parts.solids) {
+    const std::uint32_t organ = organ_of_id.at(solid.organ_id);
+    out.shapes.push_back(shape_of_solid(solid, out.material_of_organ[organ]));
+    out.organ_of_shape.push_back(organ);
+  }
+  return out;
+}
+
+// A canopy's plants, made on all threads where planting has not made them.
+std::vector<PlantParts> canopy_parts(const Canopy& canopy) {
+  std::vector<PlantParts> out(canopy.plants.size());
   parallel_for(out.size(), [&](std::size_t i) {
-    const CanopyPlant& plant = canopy.plants[i];
-    out[i] = plant.mesh ? plant.mesh : std::make_shared<const Mesh>(plant_mesh(*plant.plant));
+    out[i] = plant_parts(*canopy.plants[i].plant, PlantBodies::solids, canopy.plants[i].mesh);
   });
   return out;
 }
@@ -40,16 +112,17 @@ Prototype mesh_prototype(std::shared_ptr<const Mesh> mesh, const std::string& na
 }
 
 Prototype plant_prototype(const Plant& plant, const std::string& name, const std::string& all,
-                          const TomlValue* renamed, const SourceLocation& where, MaterialNames& names) {
-  return mesh_prototype(std::make_shared<const Mesh>(plant_mesh(plant)), name, all, renamed, where, names);
+                          const TomlValue* renamed, const SourceLocation& where, MaterialNames& names,
+                          PlantBodies bodies) {
+  return prototype_of(plant_parts(plant, bodies), name, all, renamed, where, names);
 }
 
 void add_canopy(const Canopy& canopy, const SourceLocation& where, MaterialNames& names, Scene& scene) {
   const auto first = static_cast<std::uint32_t>(scene.prototypes.size());
-  const std::vector<std::shared_ptr<const Mesh>> meshes = canopy_meshes(canopy);
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
+  std::vector<PlantParts> parts = canopy_parts(canopy);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string name = std::filesystem::path(canopy.plants[i].file).stem().string();
-    scene.prototypes.push_back(mesh_prototype(meshes[i], name, "", nullptr, where, names));
+    scene.prototypes.push_back(prototype_of(std::move(parts[i]), name, "", nullptr, where, names));
   }
   scene.instances.reserve(scene.instances.size() + canopy.placements.size());
   for (const Placement& p : canopy.placements)

@@ -9,9 +9,13 @@
 
 namespace bpms {
 
+// Stems, buds and heads as shapes (plant/plant_solids.h), or as triangles like the leaves.
+enum class PlantBodies { solids, triangles };
+
 // The prototype of a plant; its materials by their own names unless `all` or `renamed` say otherwise.
 Prototype plant_prototype(const Plant& plant, const std::string& name, const std::string& all,
-                          const TomlValue* renamed, const SourceLocation& where, MaterialNames& names);
+                          const TomlValue* renamed, const SourceLocation& where, MaterialNames& names,
+                          PlantBodies bodies = PlantBodies::solids);
 // The same for a mesh that is there already.
 Prototype mesh_prototype(std::shared_ptr<const Mesh> mesh, const std::string& name, const std::string& all,
                          const TomlValue* renamed, const SourceLocation& where, MaterialNames& names);

@@ -59,6 +59,18 @@ Prototype from_plant(const PrototypeTable& of, const TomlValue& file, MaterialNa
   }
   if (!is_plant_file(path))
     file.reject(fmt::format("expected a plant file ({})", fmt::join(plant_file_extensions(), " ")));
+  PlantBodies bodies = PlantBodies::solids;
+  if (const TomlValue solids = of.table.get("solids")) {
+    if (!path.ends_with(".bpms")) solids.reject("for plants of the plant language alone (.bpms)");
+    bodies =
+        solids.one_of({"shapes", "triangles"}) == "shapes" ? PlantBodies::solids : PlantBodies::triangles;
+  }
+  if (path.ends_with(".bpms")) {
+    const Plant read = read_plant(path);
+    scene.inputs.insert(scene.inputs.end(), read.inputs.begin(), read.inputs.end());
+    scene.notes.insert(scene.notes.end(), read.warnings.begin(), read.warnings.end());
+    return plant_prototype(read, of.name, of.all(), of.renamed(), of.where(), names, bodies);
+  }
   PlantFile read = read_plant_file(path, options);
   scene.inputs.insert(scene.inputs.end(), read.inputs.begin(), read.inputs.end());
   scene.notes.insert(scene.notes.end(), read.notes.begin(), read.notes.end());
