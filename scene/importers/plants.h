@@ -4,6 +4,7 @@
 
 #include "core/toml.h"
 #include "plant/canopy.h"
+#include "plant/plant_mesh.h"
 #include "scene/importers/materials.h"
 #include "scene/scene.h"
 
@@ -11,12 +12,16 @@ namespace bpms {
 
 // The prototype of a plant; its materials by their own names unless `all` or `renamed` say otherwise.
 Prototype plant_prototype(const Plant& plant, const std::string& name, const std::string& all,
-                          const TomlValue* renamed, const SourceLocation& where, MaterialNames& names);
+                          const TomlValue* renamed, const SourceLocation& where, MaterialNames& names,
+                          const MeshOptions& meshes = {});
 // Adds a canopy's plants and clones to the scene; the domain is left as it is.
-void add_canopy(const Canopy& canopy, const SourceLocation& where, MaterialNames& names, Scene& scene);
+void add_canopy(const Canopy& canopy, const SourceLocation& where, MaterialNames& names, Scene& scene,
+                const MeshOptions& meshes = {});
 
 // Scenes for a look at a structure alone: no ground, materials by the names in the plants.
-Scene plant_scene(const std::string& path);   // one plant at the origin, open domain
-Scene canopy_scene(const std::string& path);  // a canopy in its own domain
+// One plant at the origin, open domain.
+Scene plant_scene(const std::string& path, const MeshOptions& meshes = {});
+// A canopy in its own domain.
+Scene canopy_scene(const std::string& path, const MeshOptions& meshes = {});
 
 }  // namespace bpms

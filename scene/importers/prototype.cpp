@@ -19,6 +19,7 @@ namespace {
 struct PrototypeTable {
   const TomlValue& table;
   std::string name;
+  const MeshOptions& meshes;
   TomlValue material, materials;
   std::string all() const { return material ? material.string() : ""; }
   SourceLocation where() const { return material ? material.where() : table.where(); }
@@ -52,7 +53,7 @@ Prototype from_discs(const PrototypeTable& of, const TomlValue& file, MaterialNa
 Prototype from_plant(const PrototypeTable& of, const TomlValue& file, MaterialNames& names, Scene& scene) {
   const Plant read = read_plant(input(file, scene));
   scene.notes.insert(scene.notes.end(), read.warnings.begin(), read.warnings.end());
-  return plant_prototype(read, of.name, of.all(), of.renamed(), of.where(), names);
+  return plant_prototype(read, of.name, of.all(), of.renamed(), of.where(), names, of.meshes);
 }
 
 Prototype from_mesh(const PrototypeTable& of, const TomlValue& file, MaterialNames& names, Scene& scene) {
@@ -115,8 +116,8 @@ bool has_parts(const TomlValue& table) {
   return true;
 }
 
-Prototype read_prototype(const std::string& name, const TomlValue& table, MaterialNames& names,
-                         Scene& scene) {
+Prototype read_prototype(const std::string& name, const TomlValue& table, MaterialNames& names, Scene& scene,
+                         const MeshOptions& meshes) {
   for (const char* later : {"canopy", "librat", "volume"})
     if (const TomlValue value = table.get(later)) value.reject("prototypes of this kind are not built yet");
   const GeometryKind* chosen = nullptr;
@@ -128,7 +129,7 @@ Prototype read_prototype(const std::string& name, const TomlValue& table, Materi
   }
   if (given != 1)
     bad_input(table.where(), "[{}] needs one of discs, plant, mesh, shapes, patches, parts", table.name());
-  const PrototypeTable of{table, name, table.get("material"), table.get("materials")};
+  const PrototypeTable of{table, name, meshes, table.get("material"), table.get("materials")};
   Prototype out = chosen->read(of, table.get(chosen->key), names, scene);
   out.name = name;
   return out;
