@@ -13,10 +13,10 @@
 namespace bpms {
 
 struct Terrain {
-  std::size_t columns = 0, rows = 0;  // of nodes
-  double spacing_m = 1;
-  Eigen::Vector2d low_m = Eigen::Vector2d::Zero();  // the south-western node
-  std::vector<float> heights_m;                     // by rows from the south, each from the west
+  std::size_t columns = 0, rows = 0;                    // of nodes
+  Eigen::Vector2d spacing_m = Eigen::Vector2d::Ones();  // along x and along y
+  Eigen::Vector2d low_m = Eigen::Vector2d::Zero();      // the south-western node
+  std::vector<float> heights_m;                         // by rows from the south, each from the west
   // What rays meet: normals at the nodes are those of central differences, (U,V) runs from the south-western
   // node (0, 0) to the north-eastern one (1, 1).
   std::shared_ptr<const Mesh> mesh;
@@ -25,6 +25,8 @@ struct Terrain {
   bool covers(const Eigen::Vector2d& at) const;
   // Of the triangles at a point that it covers (the nearest edge's beyond them).
   double height_m(const Eigen::Vector2d& at) const;
+  // The mesh's normals at the corners of the triangle there, interpolated; unit.
+  Eigen::Vector3d normal(const Eigen::Vector2d& at) const;
   // The largest difference in height between opposite edges: 0 where it can be repeated without a step.
   double edges_differ_by_m() const;
 };

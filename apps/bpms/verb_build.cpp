@@ -82,8 +82,8 @@ void run(const Cli& cli, const BuildArguments& options) {
   }
   require_outputs(cli, files);
   Provenance made_from = provenance(cli);
-  made_from.add_input(options.plant);
   const Plant plant = read_plant(options.plant, {options.lenient});
+  for (const std::string& input : plant.inputs) made_from.add_input(input);
   for (const std::string& warning : plant.warnings) note(warning);
   const Mesh mesh = plant_mesh(plant, {tolerance});
   for (const std::string& output : outputs) {

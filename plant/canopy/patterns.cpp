@@ -42,16 +42,24 @@ bool PlantingField::holds(const Eigen::Vector2d& xy) const {
   return (xy.cwiseAbs().array() <= size_m.array() / 2).all();
 }
 
-void PlantingField::plant(const Eigen::Vector2d& xy, std::vector<PlantingSite>& out) const {
-  if (periodic)
-    out.push_back({wrapped(xy), 0, {}});
-  else if (holds(xy))
-    out.push_back({xy, 0, {}});
+bool PlantingField::plant(const Eigen::Vector2d& xy, std::vector<PlantingSite>& out) const {
+  if (!periodic && !holds(xy)) return false;
+  out.push_back({periodic ? wrapped(xy) : xy});
+  return true;
 }
 
-Eigen::Vector2d PlantingField::anywhere() {
-  const double x = random.uniform(-0.5, 0.5);
-  return {x * size_m.x(), random.uniform(-0.5, 0.5) * size_m.y()};
+Eigen::Vector2d PlantingField::anywhere(Philox& from) const {
+  const double x = from.uniform(-0.5, 0.5);
+  return {x * size_m.x(), from.uniform(-0.5, 0.5) * size_m.y()};
+}
+
+std::size_t PlantingField::plant_count(double plants, const TomlValue& where) const {
+  const double count = std::round(plants);
+  if (!(count >= 1))
+    where.reject(fmt::format("gives {:.3g} plants in the domain, expected at least one", plants));
+  if (count > static_cast<double>(most_plants))
+    where.reject(fmt::format("gives {:.3g} plants in the domain, more than {}", plants, most_plants));
+  return static_cast<std::size_t>(count);
 }
 
 MeanSd mean_sd(const TomlValue& value) {
@@ -65,16 +73,6 @@ MeanSd positive_mean_sd(const TomlValue& value) {
   const MeanSd out = mean_sd(value);
   if (out.mean <= 0) value.reject(fmt::format("found {}, expected a mean above 0", out.mean));
   return out;
-}
-
-std::size_t plant_count(double plants, const TomlValue& where) {
-  constexpr double most = 1e7;
-  const double count = std::round(plants);
-  if (count < 1)
-    where.reject(fmt::format("gives {:.3g} plants in the domain, expected at least one", plants));
-  if (count > most)
-    where.reject(fmt::format("gives {:.3g} plants in the domain, more than {:.0f}", plants, most));
-  return static_cast<std::size_t>(count);
 }
 
 }  // namespace bpms

@@ -3,12 +3,25 @@
 #include <filesystem>
 #include <iterator>
 
-#include "plant/export/formats.h"
+#include "plant/export/stand_parts.h"
 
 namespace bpms {
 
 std::string mtl_path(const std::string& obj_path) {
   return std::filesystem::path(obj_path).replace_extension(".mtl").string();
+}
+
+std::string mtl_text(const std::vector<std::string>& materials) {
+  std::string out = "# bpms materials; colours are for viewers only\n";
+  for (const std::string& name : materials) {
+    const Eigen::Vector3f linear = viewer_colour(name);
+    const auto shown = [](float value) {
+      return std::pow(value, 1 / 2.2f);
+    };  // MTL colours are display-referred
+    fmt::format_to(std::back_inserter(out), "newmtl {}\nKd {:.3f} {:.3f} {:.3f}\nillum 1\n", name,
+                   shown(linear.x()), shown(linear.y()), shown(linear.z()));
+  }
+  return out;
 }
 
 std::vector<MeshFile> obj_files(const std::string& path, const Mesh& mesh, int plant_id) {
@@ -32,16 +45,7 @@ std::vector<MeshFile> obj_files(const std::string& path, const Mesh& mesh, int p
     const auto& [a, b, c] = mesh.triangles[t];
     fmt::format_to(line, "f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", a + 1, b + 1, c + 1);
   }
-  std::string mtl = "# bpms materials; colours are for viewers only\n";
-  for (const std::string& name : materials.names) {
-    const Eigen::Vector3f linear = viewer_colour(name);
-    const auto shown = [](float value) {
-      return std::pow(value, 1 / 2.2f);
-    };  // MTL colours are display-referred
-    fmt::format_to(std::back_inserter(mtl), "newmtl {}\nKd {:.3f} {:.3f} {:.3f}\nillum 1\n", name,
-                   shown(linear.x()), shown(linear.y()), shown(linear.z()));
-  }
-  return {{path, std::move(out)}, {library, std::move(mtl)}};
+  return {{path, std::move(out)}, {library, mtl_text(materials.names)}};
 }
 
 }  // namespace bpms

@@ -1,10 +1,11 @@
 // PLY, binary little endian: vertices with normal and (s, t) = (U, V), faces with organ_id, material_id,
 // plant_id. Comment lines name the organs and materials behind the numbers.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <iterator>
 
-#include "plant/export/formats.h"
+#include "plant/export/stand_parts.h"
 
 namespace bpms {
 namespace {
@@ -20,6 +21,12 @@ void append(std::string& bytes, T value) {
 
 }  // namespace
 
+std::string in_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return text;
+}
+
 std::vector<MeshFile> ply_files(const std::string& path, const Mesh& mesh, int plant_id) {
   const MeshMaterials materials = mesh_materials(mesh);
   std::string out =
@@ -27,8 +34,12 @@ std::vector<MeshFile> ply_files(const std::string& path, const Mesh& mesh, int p
   const auto line = std::back_inserter(out);
   for (std::size_t i = 0; i < materials.names.size(); ++i)
     fmt::format_to(line, "comment material {} {}\n", i, materials.names[i]);
-  for (const Mesh::Organ& organ : mesh.organs)
+  for (const Mesh::Organ& organ : mesh.organs) {
     fmt::format_to(line, "comment organ {} {} {} {}\n", organ.id, organ.label, organ.kind, organ.material);
+    for (const auto& property : organ.properties)
+      fmt::format_to(line, "comment property {} {} {}\n", organ.id, in_one_line(property.first),
+                     in_one_line(property.second));
+  }
   fmt::format_to(line, "element vertex {}\n", mesh.positions_m.size());
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t"})
     fmt::format_to(line, "property float {}\n", name);

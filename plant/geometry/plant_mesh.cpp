@@ -1,6 +1,7 @@
 #include "plant/plant_mesh.h"
 
 #include "plant/geometry/mesh_parts.h"
+#include "plant/geometry/organ_rows.h"
 #include "plant/mesh.h"
 
 namespace bpms {
@@ -15,9 +16,10 @@ Mesh plant_mesh(const Plant& plant, const MeshOptions& options) {
   Mesh out;
   for (const PlacedOrgan& organ : place_organs(plant)) {
     const OrganAttributes& attributes = *organ.attributes;
-    const OrganMesh part = organ.kind == OrganKind::leaf
-                               ? leaf_mesh(attributes, options.tolerance_m)
-                               : swept_mesh(organ.kind, attributes, options.tolerance_m);
+    OrganMesh part = organ.kind == OrganKind::leaf ? leaf_mesh(attributes, options.tolerance_m)
+                                                   : swept_mesh(organ.kind, attributes, options.tolerance_m);
+    if (attributes.joint > 0) add_joint(part, attributes, options.tolerance_m);
+    const std::size_t first_triangle = out.triangles.size();
     const auto first = static_cast<std::uint32_t>(out.positions_m.size());
     const auto index = static_cast<std::uint32_t>(out.organs.size());
     for (std::size_t i = 0; i < part.positions_m.size(); ++i) {
@@ -41,7 +43,10 @@ Mesh plant_mesh(const Plant& plant, const MeshOptions& options) {
       row.area_m2 += area;
       out.organ_of_triangle.push_back(index);
     }
-    out.organs.push_back(row);
+    row.properties = organ.properties;
+    if (options.parameters) row.parameters = organ_parameters(attributes, plant.unit);
+    out.organs.push_back(std::move(row));
+    split_senescent(out, first_triangle, attributes);
   }
   return out;
 }

@@ -1,10 +1,28 @@
 #include "plant/geometry/subdivide.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "plant/leaf_frame.h"
 
 namespace bpms {
+
+namespace {
+
+// Puts a node exactly there, in the place of one that is too near.
+void require_node(std::vector<double>& nodes, double l, double least_gap) {
+  const auto after = std::ranges::upper_bound(nodes, l);
+  if (after == nodes.begin() || after == nodes.end()) return;
+  for (const auto& near : {after - 1, after}) {
+    const bool inner = near != nodes.begin() && near + 1 != nodes.end();
+    if (std::abs(*near - l) > least_gap || (!inner && *near != l)) continue;
+    *near = l;
+    return;
+  }
+  nodes.insert(after, l);
+}
+
+}  // namespace
 
 std::vector<double> first_nodes(const OrganAttributes& organ, double least_gap) {
   int steps = 1;
@@ -20,6 +38,7 @@ std::vector<double> first_nodes(const OrganAttributes& organ, double least_gap) 
     if (l - out.back() > least_gap && 1 - l > least_gap) out.push_back(l);
   }
   out.push_back(1);
+  if (organ.senescent > 0) require_node(out, 1 - organ.senescent, least_gap);
   return out;
 }
 

@@ -13,13 +13,13 @@ std::string name(const Symbol& symbol) {
                       : fmt::format("{} {}", organ_name(symbol.kind), symbol.ordinal);
 }
 
-void note(Plant& plant, const SourceLocation& where, const std::string& message) {
-  plant.warnings.push_back(where.str() + ": " + message);
+void note(std::vector<std::string>& warnings, const SourceLocation& where, const std::string& message) {
+  warnings.push_back(where.str() + ": " + message);
 }
 
 using Key = std::pair<OrganKind, int>;
 
-void note_ambiguous_numbers(Plant& plant) {
+void note_ambiguous_numbers(const OrganWord& plant, std::vector<std::string>& warnings) {
   std::map<Key, const Symbol*> by_ordinal;
   for (const Symbol& symbol : plant.word) {
     if (symbol.type == Symbol::Type::organ) by_ordinal[{symbol.kind, symbol.ordinal}] = &symbol;
@@ -29,7 +29,7 @@ void note_ambiguous_numbers(Plant& plant) {
     if (!symbol.label || !told.insert({symbol.kind, *symbol.label}).second) continue;
     const auto other = by_ordinal.find({symbol.kind, *symbol.label});
     if (other == by_ordinal.end() || other->second->label == symbol.label) continue;
-    note(plant, symbol.where,
+    note(warnings, symbol.where,
          fmt::format("{} is a label here and also the ordinal of another {} (line {}, column {}); the block "
                      "'{} {}' belongs to the label",
                      *symbol.label, organ_name(symbol.kind), other->second->where.line,
@@ -38,7 +38,7 @@ void note_ambiguous_numbers(Plant& plant) {
 }
 
 // The sizes that blocks lack: one note for each kind of organ and size, however many blocks it is.
-void note_missing_sizes(Plant& plant) {
+void note_missing_sizes(const OrganWord& plant, std::vector<std::string>& warnings) {
   struct Size {
     const char* lack;
     bool (*is_lacking)(OrganKind, const OrganAttributes&);
@@ -62,7 +62,7 @@ void note_missing_sizes(Plant& plant) {
       for (std::size_t i = 1; i < lacking.size(); ++i)
         lines += fmt::format("{}{}", i > 1 ? ", " : "", lacking[i]->where.line);
       note(
-          plant, lacking[0]->where,
+          warnings, lacking[0]->where,
           fmt::format("this {} has no {}", organ_name(kind), size.lack) +
               (lines.empty() ? ""
                              : fmt::format("; the same at line{} {}", lacking.size() > 2 ? "s" : "", lines)));
@@ -70,34 +70,57 @@ void note_missing_sizes(Plant& plant) {
   }
 }
 
-void note_long_leaves(Plant& plant) {
-  constexpr double long_leaf_m = 1;
-  for (const Block& block : plant.blocks) {
-    const double length_m = block.attributes.length_m;
-    if (block.kind == OrganKind::leaf && length_m > long_leaf_m)
-      note(plant, block.where,
-           fmt::format("a leaf {:.4g} m long; is the unit ('units {}') right?", length_m, plant.unit));
+void note_organs_without_block(const OrganWord& plant, std::vector<std::string>& warnings) {
+  std::set<std::pair<int, int>> told;  // places: the organs of a repeated group share theirs
+  for (const Symbol& symbol : plant.word) {
+    if (symbol.type != Symbol::Type::organ || symbol.block >= 0) continue;
+    if (!told.insert({symbol.where.line, symbol.where.column}).second) continue;
+    note(warnings, symbol.where,
+         fmt::format("{} has no block{}", name(symbol),
+                     symbol.kind == OrganKind::rotation ? " and turns nothing" : " and no extent"));
   }
+}
+
+// The blocks that somebody uses or that the file itself has; those of libraries are there to choose from.
+std::vector<Block> kept_blocks(std::vector<ParsedBlock>& parsed, std::vector<Symbol>& word) {
+  std::vector<bool> used(parsed.size());
+  for (const Symbol& symbol : word) {
+    if (symbol.block >= 0) used[static_cast<std::size_t>(symbol.block)] = true;
+  }
+  std::vector<Block> out;
+  std::vector<int> index(parsed.size(), -1);
+  std::vector<ParsedBlock> kept;
+  for (std::size_t i = 0; i < parsed.size(); ++i) {
+    if (parsed[i].included && !used[i]) continue;
+    index[i] = static_cast<int>(out.size());
+    out.push_back(std::move(parsed[i].block));
+    kept.push_back(std::move(parsed[i]));
+  }
+  parsed = std::move(kept);
+  for (Symbol& symbol : word) {
+    if (symbol.block >= 0) symbol.block = index[static_cast<std::size_t>(symbol.block)];
+  }
+  return out;
 }
 
 }  // namespace
 
-void assign_blocks(Plant& plant) {
+OrganWord assign_blocks(std::vector<Symbol> word, std::vector<ParsedBlock>& blocks,
+                        std::vector<std::string>& warnings) {
   std::map<Key, int> numbered;
   std::map<OrganKind, int> defaults;
-  for (std::size_t i = 0; i < plant.blocks.size(); ++i) {
-    const Block& block = plant.blocks[i];
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Block& block = blocks[i].block;
     if (block.number)
       numbered[{block.kind, *block.number}] = static_cast<int>(i);
     else
       defaults[block.kind] = static_cast<int>(i);
   }
   std::set<Key> labels;
-  for (const Symbol& symbol : plant.word) {
+  for (const Symbol& symbol : word) {
     if (symbol.label) labels.insert({symbol.kind, *symbol.label});
   }
-  std::set<int> used;
-  for (Symbol& symbol : plant.word) {
+  for (Symbol& symbol : word) {
     if (symbol.type != Symbol::Type::organ) continue;
     const Key by_ordinal{symbol.kind, symbol.ordinal};
     if (symbol.label && numbered.contains({symbol.kind, *symbol.label})) {
@@ -107,25 +130,27 @@ void assign_blocks(Plant& plant) {
     } else if (const auto found = defaults.find(symbol.kind); found != defaults.end()) {
       symbol.block = found->second;
     }
-    if (symbol.block >= 0) used.insert(symbol.block);
   }
-  for (std::size_t i = 0; i < plant.word.size(); ++i) {
-    const Symbol& symbol = plant.word[i];
-    if (symbol.type == Symbol::Type::organ && symbol.block < 0)
-      note(plant, symbol.where,
-           fmt::format("{} has no block{}", name(symbol),
-                       symbol.kind == OrganKind::rotation ? " and turns nothing" : " and no extent"));
+  OrganWord out;
+  out.blocks = kept_blocks(blocks, word);
+  out.word = std::move(word);
+  note_organs_without_block(out, warnings);
+  note_ambiguous_numbers(out, warnings);
+  std::vector<bool> used(out.blocks.size());
+  for (const Symbol& symbol : out.word) {
+    if (symbol.block >= 0) used[static_cast<std::size_t>(symbol.block)] = true;
   }
-  note_ambiguous_numbers(plant);
-  for (std::size_t i = 0; i < plant.blocks.size(); ++i) {
-    const Block& block = plant.blocks[i];
-    if (!used.contains(static_cast<int>(i)))
-      note(plant, block.where,
+  for (std::size_t i = 0; i < out.blocks.size(); ++i) {
+    const Block& block = out.blocks[i];
+    if (!used[i])
+      note(warnings, block.where,
            fmt::format("nothing uses the block '{}{}'", letter(block.kind),
                        block.number ? fmt::format(" {}", *block.number) : std::string()));
   }
-  note_missing_sizes(plant);
-  note_long_leaves(plant);
+  note_missing_sizes(out, warnings);
+  for (const ParsedBlock& block : blocks)
+    warnings.insert(warnings.end(), block.notes.begin(), block.notes.end());
+  return out;
 }
 
 }  // namespace bpms

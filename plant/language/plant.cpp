@@ -14,7 +14,7 @@ char letter(OrganKind kind) {
 }
 
 std::string organ_name(OrganKind kind) {
-  constexpr const char* names[] = {"bud", "stem", "leaf", "head", "rotation"};
+  constexpr const char* names[] = {"bud", "stem", "leaf", "head", "rotation", "compound"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -25,9 +25,13 @@ OrganAttributes::~OrganAttributes() = default;
 
 OrganAttributes::OrganAttributes(const OrganAttributes& other)
     : material(other.material),
+      senescent_material(other.senescent_material),
+      properties(other.properties),
       length_m(other.length_m),
       width_m(other.width_m),
       radius_m(other.radius_m),
+      senescent(other.senescent),
+      joint(other.joint),
       inclination(other.inclination),
       azimuth(other.azimuth),
       twist(other.twist),

@@ -1,24 +1,12 @@
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
-#include "core/nearest.h"
-#include "core/units.h"
 #include "plant/language/attributes.h"
 #include "plant/language/parse.h"
+#include "plant/plant_library.h"
 
 namespace bpms {
 namespace {
-
-const std::vector<std::string> units{"cm", "mm", "m"};
-
-PlantTokens tokenise(const std::string& path, std::string_view text) {
-  PlantTokens out{path, {}, {path}};
-  TokenReader reader(path, text, "{}");
-  while (const auto token = reader.next()) out.tokens.push_back(*token);
-  out.end = reader.here();
-  return out;
-}
 
 bool is_organ_letter(std::string_view text) {
   return text.size() == 1 && organ_letters.find(text) != std::string_view::npos;
@@ -28,7 +16,13 @@ bool like_number(std::string_view text) {
          text.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
 }
 
-// The token where the first block begins: the letter before "{" or before "NUMBER {".
+}  // namespace
+
+bool begins_block(const PlantTokens& text, std::size_t at) {
+  return at < text.tokens.size() && is_organ_letter(text.tokens[at].text) &&
+         (text.is(at + 1, "{") || (text.is(at + 2, "{") && like_number(text.tokens[at + 1].text)));
+}
+
 std::size_t first_block(const PlantTokens& text, std::size_t begin) {
   std::size_t brace = begin;
   while (brace < text.tokens.size() && text.tokens[brace].text != "{" && text.tokens[brace].text != "}")
@@ -42,53 +36,58 @@ std::size_t first_block(const PlantTokens& text, std::size_t begin) {
                "'{{' without an organ letter before it, expected a block such as 'l 1 {{'");
 }
 
-std::size_t parse_units(const PlantTokens& text, Plant& plant) {
-  if (text.tokens.empty() || text.tokens[0].text != "units") return 0;
-  if (text.tokens.size() < 2)
-    syntax_error(text.end, "the file ends where a unit was expected: units cm, mm or m");
-  const std::string unit(text.tokens[1].text);
-  if (std::ranges::find(units, unit) == units.end())
-    syntax_error(text.where(1), "unknown unit {}{}", in_quotes(unit), did_you_mean(unit, units));
-  plant.unit = unit;
-  return 2;
-}
-
-void refuse_second_block(const std::vector<Block>& blocks, const Block& block) {
-  for (const Block& other : blocks) {
-    if (other.kind != block.kind || other.number != block.number) continue;
-    const std::string number = block.number ? fmt::format(" {}", *block.number) : std::string();
-    semantic_error(block.where, "a second block '{}{}'; the first is at line {}", letter(block.kind), number,
-                   other.where.line);
-  }
-}
-
-}  // namespace
-
-SourceLocation PlantTokens::where(std::size_t token) const {
-  return token < tokens.size() ? SourceLocation{file, tokens[token].line, tokens[token].column} : end;
-}
-
 Plant parse_plant(const std::string& path, std::string_view text, const PlantReadOptions& options) {
-  const PlantTokens tokens = tokenise(path, text);
+  const PlantTokens tokens = plant_tokens(path, text);
+  PlantStatements statements;
+  const std::size_t begin = read_statements(tokens, false, options, statements);
   Plant plant;
   plant.name = std::filesystem::path(path).stem().string();
-  std::size_t at = parse_units(tokens, plant);
-  const double metres = metres_per_unit(plant.unit, {});
-  const std::size_t blocks = first_block(tokens, at);
-  if (blocks == at)
-    syntax_error(tokens.where(at), "no word before the blocks, expected one such as [s[+l]h]");
-  parse_word(tokens, at, blocks, options.lenient, plant);
-  for (at = blocks; at < tokens.tokens.size();) {
-    Block block = parse_block(tokens, at, metres);
-    refuse_second_block(plant.blocks, block);
-    plant.blocks.push_back(std::move(block));
-  }
-  assign_blocks(plant);
+  plant.unit = statements.unit;
+  plant.inputs = statements.inputs;
+  const std::size_t first = first_block(tokens, begin);
+  if (first == begin)
+    syntax_error(tokens.where(begin), "no word before the blocks, expected one such as [s[+l]h]");
+  CompoundBuilder compounds(statements.names, options, plant);
+  compounds.check_definitions();
+  const Scope scope{statements.names};
+  std::vector<Symbol> word = parse_word(tokens, begin, first, scope, options.lenient, plant.warnings);
+  std::vector<ParsedBlock> blocks = std::move(statements.blocks);
+  for (std::size_t at = first; at < tokens.tokens.size();)
+    add_block(blocks, parse_block(tokens, at, plant.unit, scope));
+  static_cast<OrganWord&>(plant) = assign_blocks(std::move(word), blocks, plant.warnings);
+  compounds.fill_in(plant, blocks);
+  compounds.parts(plant, tokens.where(begin));
   return plant;
 }
 
 Plant read_plant(const std::string& path, const PlantReadOptions& options) {
   return parse_plant(path, read_text(path), options);
+}
+
+std::optional<PlantLibrary> parse_plant_library(const std::string& path, std::string_view text) {
+  const PlantTokens tokens = plant_tokens(path, text);
+  const auto is_definition = [](const Token& token) {
+    return token.text != "units" && is_statement(token.text);
+  };
+  if (std::ranges::none_of(tokens.tokens, is_definition)) return std::nullopt;
+  PlantStatements statements;
+  const PlantReadOptions options;
+  const std::size_t begin = read_statements(tokens, false, options, statements);
+  if (first_block(tokens, begin) != begin) return std::nullopt;
+  statements = {};
+  read_statements(tokens, true, options, statements);
+  Plant plant;
+  CompoundBuilder compounds(statements.names, options, plant);
+  compounds.check_definitions();
+  OrganWord all;
+  for (const ParsedBlock& parsed : statements.blocks) all.blocks.push_back(parsed.block);
+  compounds.fill_in(all, statements.blocks);
+  PlantLibrary out;
+  for (const auto& [name, constant] : statements.names.constants) out.constants.push_back(name);
+  for (const auto& [name, organ] : statements.names.organs) out.organs.push_back(name);
+  out.blocks = statements.blocks.size();
+  out.inputs = statements.inputs;
+  return out;
 }
 
 }  // namespace bpms

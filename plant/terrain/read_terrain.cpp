@@ -14,10 +14,11 @@ void check_repeats(const Terrain& terrain, const Eigen::Vector2d& domain_m, cons
   const Eigen::Vector2d size = terrain.size_m();
   constexpr double rounding = 1e-6;
   if (((size - domain_m).array().abs() > rounding * domain_m.array()).any())
-    file.reject(fmt::format(
-        "the terrain is {:.9g} x {:.9g} m ({} x {} nodes, {:.9g} m apart), expected the size of "
-        "the periodic domain, {:.9g} x {:.9g} m",
-        size.x(), size.y(), terrain.columns, terrain.rows, terrain.spacing_m, domain_m.x(), domain_m.y()));
+    file.reject(
+        fmt::format("the terrain is {:.9g} x {:.9g} m ({} x {} nodes, {:.9g} m apart), expected the size of "
+                    "the periodic domain, {:.9g} x {:.9g} m",
+                    size.x(), size.y(), terrain.columns, terrain.rows, terrain.spacing_m.x(), domain_m.x(),
+                    domain_m.y()));
   const Eigen::Vector2d off = terrain.low_m + 0.5 * domain_m;
   if ((off.array().abs() > rounding * domain_m.array()).any())
     file.reject(
@@ -26,7 +27,7 @@ void check_repeats(const Terrain& terrain, const Eigen::Vector2d& domain_m, cons
                     off.x(), off.y()));
   constexpr double least_step = 1e-5;  // of the spacing: no more than rounding
   const double step = terrain.edges_differ_by_m();
-  if (step > least_step * terrain.spacing_m)
+  if (step > least_step * terrain.spacing_m.minCoeff())
     file.reject(
         fmt::format("opposite edges of the terrain differ by up to {:.6g} m, expected equal heights in a "
                     "periodic domain",

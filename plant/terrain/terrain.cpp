@@ -19,10 +19,30 @@ double slope(std::size_t i, std::size_t count, double spacing_m, bool repeats, c
   return i == 0 ? (height(1) - height(0)) / spacing_m : (height(last) - height(last - 1)) / spacing_m;
 }
 
+// The corners of the triangle at a point and their shares.
+struct TerrainCorners {
+  std::size_t node[3];
+  double share[3];
+};
+
+TerrainCorners corners_at(const Terrain& terrain, const Eigen::Vector2d& at) {
+  const Eigen::Vector2d p = (at - terrain.low_m).cwiseQuotient(terrain.spacing_m);
+  const auto square = [](double x, std::size_t nodes) {
+    return static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, static_cast<double>(nodes - 2)));
+  };
+  const std::size_t i = square(p.x(), terrain.columns), j = square(p.y(), terrain.rows);
+  const double u = std::clamp(p.x() - static_cast<double>(i), 0.0, 1.0);
+  const double v = std::clamp(p.y() - static_cast<double>(j), 0.0, 1.0);
+  const std::size_t sw = j * terrain.columns + i, nw = sw + terrain.columns;
+  if (u >= v) return {{sw, sw + 1, nw + 1}, {1 - u, u - v, v}};
+  return {{sw, nw + 1, nw}, {1 - v, u, v - u}};
+}
+
 }  // namespace
 
 Eigen::Vector2d Terrain::size_m() const {
-  return spacing_m * Eigen::Vector2d(static_cast<double>(columns - 1), static_cast<double>(rows - 1));
+  return spacing_m.cwiseProduct(
+      Eigen::Vector2d(static_cast<double>(columns - 1), static_cast<double>(rows - 1)));
 }
 
 bool Terrain::covers(const Eigen::Vector2d& at) const {
@@ -31,20 +51,17 @@ bool Terrain::covers(const Eigen::Vector2d& at) const {
 }
 
 double Terrain::height_m(const Eigen::Vector2d& at) const {
-  const Eigen::Vector2d p = (at - low_m) / spacing_m;
-  const auto square = [](double x, std::size_t nodes) {
-    return static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, static_cast<double>(nodes - 2)));
-  };
-  const std::size_t i = square(p.x(), columns), j = square(p.y(), rows);
-  const double u = std::clamp(p.x() - static_cast<double>(i), 0.0, 1.0);
-  const double v = std::clamp(p.y() - static_cast<double>(j), 0.0, 1.0);
-  const double sw = node(*this, i, j), ne = node(*this, i + 1, j + 1);
-  if (u >= v) {
-    const double se = node(*this, i + 1, j);
-    return sw + u * (se - sw) + v * (ne - se);
-  }
-  const double nw = node(*this, i, j + 1);
-  return sw + v * (nw - sw) + u * (ne - nw);
+  const TerrainCorners corners = corners_at(*this, at);
+  double out = 0;
+  for (int k = 0; k < 3; ++k) out += corners.share[k] * static_cast<double>(heights_m[corners.node[k]]);
+  return out;
+}
+
+Eigen::Vector3d Terrain::normal(const Eigen::Vector2d& at) const {
+  const TerrainCorners corners = corners_at(*this, at);
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) out += corners.share[k] * mesh->normals[corners.node[k]].cast<double>();
+  return out.normalized();
 }
 
 double Terrain::edges_differ_by_m() const {
@@ -69,9 +86,9 @@ void make_terrain_mesh(Terrain& terrain, bool repeats) {
       const Eigen::Vector2d at = terrain.low_m + share.cwiseProduct(terrain.size_m());
       mesh->positions_m.push_back(Eigen::Vector3d(at.x(), at.y(), node(terrain, i, j)).cast<float>());
       mesh->uv.push_back(share.cast<float>());
-      const double east = slope(i, terrain.columns, terrain.spacing_m, repeats,
+      const double east = slope(i, terrain.columns, terrain.spacing_m.x(), repeats,
                                 [&](std::size_t k) { return node(terrain, k, j); });
-      const double north = slope(j, terrain.rows, terrain.spacing_m, repeats,
+      const double north = slope(j, terrain.rows, terrain.spacing_m.y(), repeats,
                                  [&](std::size_t k) { return node(terrain, i, k); });
       mesh->normals.push_back(Eigen::Vector3d(-east, -north, 1).normalized().cast<float>());
     }

@@ -79,8 +79,8 @@ Terrain parse_terrain(const std::string& path, std::string_view text) {
   const HeaderValue spacing = header.require("cellsize");
   if (!(spacing.number > 0 && spacing.number <= farthest_node_m))
     bad_input(spacing.where, "cellsize {}, expected a length above 0 and up to 1e7 m", spacing.number);
-  out.spacing_m = spacing.number;
-  out.low_m = {header.low('x', out.spacing_m), header.low('y', out.spacing_m)};
+  out.spacing_m.setConstant(spacing.number);
+  out.low_m = {header.low('x', spacing.number), header.low('y', spacing.number)};
   const auto no_data = header.get("nodata_value");
   const std::size_t nodes = out.columns * out.rows;
   // Each value takes two bytes at least: a header that promises more than the file holds is not believed.

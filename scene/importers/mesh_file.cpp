@@ -10,6 +10,8 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/text.h"
+#include "scene/importers/obj_indices.h"
 
 namespace bpms {
 namespace {
@@ -33,6 +35,7 @@ class MeshReader {
     constexpr unsigned steps =
         aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType;
     const std::string type = std::filesystem::path(path_).extension().string();
+    if (lower(type) == ".obj") check_obj_indices(path_, bytes == nullptr ? read_file(path_) : *bytes);
     file_ = bytes == nullptr ? importer.ReadFile(path_, steps)
                              : importer.ReadFileFromMemory(bytes->data(), bytes->size(), steps,
                                                            type.empty() ? "" : type.c_str() + 1);

@@ -14,7 +14,7 @@ namespace bpms {
 Prototype plant_prototype(const Plant& plant, const std::string& name, const std::string& all,
                           const TomlValue* renamed, const SourceLocation& where, MaterialNames& names,
                           const MeshOptions& meshes = {});
-// Adds a canopy's plants and clones to the scene; the domain is left as it is.
+// Adds a canopy's plants and clones, and its ground if it has one, to the scene; the domain is left as it is.
 void add_canopy(const Canopy& canopy, const SourceLocation& where, MaterialNames& names, Scene& scene,
                 const MeshOptions& meshes = {});
 

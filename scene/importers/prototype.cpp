@@ -51,7 +51,8 @@ Prototype from_discs(const PrototypeTable& of, const TomlValue& file, MaterialNa
 }
 
 Prototype from_plant(const PrototypeTable& of, const TomlValue& file, MaterialNames& names, Scene& scene) {
-  const Plant read = read_plant(input(file, scene));
+  const Plant read = read_plant(file.file_relative(file.string()));
+  scene.inputs.insert(scene.inputs.end(), read.inputs.begin(), read.inputs.end());
   scene.notes.insert(scene.notes.end(), read.warnings.begin(), read.warnings.end());
   return plant_prototype(read, of.name, of.all(), of.renamed(), of.where(), names, of.meshes);
 }

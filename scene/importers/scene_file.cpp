@@ -28,7 +28,7 @@ class SceneReader {
     names_.define(root_.get("materials"));
     read_canopy_key();
     read_domain(root_.get("domain"));
-    if (const TomlValue ground = root_.get("ground")) scene_.ground = read_ground(ground, names_, scene_);
+    read_ground_of_all();
     read_prototypes(root_.get("prototypes"));
     const TomlValue instances = root_.get("instances");
     for (std::size_t i = 0; i < instances.size(); ++i) read_instances(instances[i]);
@@ -49,7 +49,17 @@ class SceneReader {
     const Canopy planted = read_canopy(path);
     scene_.domain.size_m = planted.size_m;
     scene_.domain.periodic = planted.periodic;
+    canopy_domain_ = scene_.domain;
     add_canopy(planted, canopy.where(), names_, scene_, meshes_);
+  }
+
+  void read_ground_of_all() {
+    const TomlValue table = root_.get("ground");
+    const std::optional<Ground> of_canopy = scene_.ground;
+    if (of_canopy) check_canopy_ground(canopy_domain_, scene_.domain, root_.get("domain"));
+    if (!table) return;
+    scene_.ground = read_ground(table, names_, scene_);
+    if (of_canopy) check_same_ground(*of_canopy, *scene_.ground, table);
   }
 
   void read_domain(const TomlValue& domain) {
@@ -151,6 +161,7 @@ class SceneReader {
   TomlValue root_;
   Scene scene_;
   MaterialNames names_;
+  Domain canopy_domain_;
   std::vector<std::string> own_names_;  // of the file's prototypes
   std::vector<Assembly> assemblies_;
   std::vector<bool> used_;

@@ -94,7 +94,8 @@ TEST(PlantLanguage, NothingGrowsFromLeavesAndHeads) {
 }
 
 TEST(PlantLanguage, SyntaxErrorsInTheWord) {
-  EXPECT_REFUSED("[sxl]", "x.bpms:1:3: syntax error: unknown letter 'x' in the word; known: b s l h + [ ]");
+  EXPECT_REFUSED("[sxl]",
+                 "x.bpms:1:3: syntax error: unknown letter 'x' in the word; known: b s l h c + [ ] < >");
   EXPECT_REFUSED("s l1",
                  "x.bpms:1:4: syntax error: a number in the word; a label is written in parentheses: l(1)");
   EXPECT_REFUSED("l(1", "x.bpms:1:2: syntax error: label opened here is never closed");
@@ -193,7 +194,8 @@ TEST(PlantLanguage, NotesWhatIsUnusedMissingOrAmbiguous) {
   EXPECT_THAT(parse("[l][l][l]\nl 1" + bare + "l 2" + bare + "l 3" + bare).warnings,
               ElementsAre("x.bpms:2:1: this leaf has no a_width and no surface; the same at lines 3, 4"));
   EXPECT_THAT(parse("units m\nl\nl { a_length 1.2 a_width 0.1 }").warnings,
-              ElementsAre("x.bpms:3:1: a leaf 1.2 m long; is the unit ('units m') right?"));
+              ElementsAre("x.bpms:3:5: a leaf 1.2 m long; is the unit ('units m') right? With 'units cm' it "
+                          "would be 1.2 cm"));
   EXPECT_THAT(parse("units m\nl\nl { a_length 1 a_width 0.1 }").warnings, IsEmpty());
 }
 

@@ -116,6 +116,31 @@ TEST(MeshFile, TurnsFacesOfMirroredNodesWithoutNormals) {
   EXPECT_LT((normal(1) - Eigen::Vector3f(0, -1, 0)).norm(), 1e-5);
 }
 
+TEST(MeshFile, SaysWhichFaceOfAnObjNamesWhatIsNotThere) {
+  const std::string sound = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n";
+  const auto refused = [&](const std::string& faces) {
+    try {
+      parse_mesh("a.obj", sound + faces, 1, false);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused("f 1//1 2//1 3//1\n"), "");
+  EXPECT_EQ(refused("f -3//-1 -2//-1 -1//-1\n"), "");
+  EXPECT_EQ(refused("f 1 2 4\nv 1 1 0\n"), "");  // stands further down
+  const auto at = [](const char* place, const char* what) {
+    return ::testing::AllOf(::testing::HasSubstr(place), ::testing::HasSubstr(what));
+  };
+  EXPECT_THAT(refused("f 1 2 7\n"), at("a.obj:5:7", "number 7 of the vertices, expected 1 to 3 or -1 to -3"));
+  EXPECT_THAT(refused("f 1 2 3\nf 1 0 3\n"), at("a.obj:6:5", "number 0 of the vertices"));
+  EXPECT_THAT(refused("f 1 2 -4\n"), at("a.obj:5:7", "number -4"));
+  EXPECT_THAT(refused("f 1//1 2//1 3//2\n"), at("a.obj:5:13", "number 2 of the normals, expected 1 to 1"));
+  EXPECT_THAT(refused("f 1/1 2/1 3/1\n"), at("a.obj:5:3", "number 1 of the texture coordinates"));
+  EXPECT_THAT(refused("f 1 2 x\n"), at("a.obj:5:7", "'x' in a face"));
+  EXPECT_THAT(refused("f 1 2 3//1/1\n"), at("a.obj:5:7", "expected vertex/texture/normal"));
+}
+
 TEST(MeshFile, KnowsWhichWayIsUp) {
   EXPECT_TRUE(mesh_file_is_y_up("a/b.GLB"));
   EXPECT_TRUE(mesh_file_is_y_up("b.gltf"));
