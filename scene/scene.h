@@ -85,6 +85,8 @@ struct Scene {
 
 // Reads the geometry part of a scene.toml; the caller reads the rest and then calls document.finish().
 Scene read_scene_geometry(const TomlDocument& document);
+struct MeshOptions;  // how plants become triangles (plant/plant_mesh.h)
+Scene read_scene_geometry(const TomlDocument& document, const MeshOptions& meshes);
 
 // The azimuth of a horizontal direction and back, in the scene's convention.
 Eigen::Vector3d direction_from_angles(double zenith, double azimuth, const Domain& domain);

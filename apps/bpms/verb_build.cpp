@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/bpms/build_exchange.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "core/atomic_file.h"
@@ -24,6 +25,7 @@ struct BuildArguments {
   std::vector<std::string> also;  // further outputs
   std::string tolerance = "0.1mm";
   bool lenient = false;
+  ExchangeArguments exchange;
   int levels = 1;
   bool crossings = false;  // between organs
 };
@@ -136,6 +138,7 @@ void run(const Cli& cli, const BuildArguments& options) {
   std::vector<std::string> outputs{require_output(cli)};
   outputs.insert(outputs.end(), options.also.begin(), options.also.end());
   const double tolerance = tolerance_m(options.tolerance);
+  if (build_exchange(cli, {options.plant, outputs, tolerance, options.lenient}, options.exchange)) return;
   std::vector<std::string> files;
   for (const std::string& output : outputs) {
     if (is_patch_file(output)) {
@@ -176,10 +179,13 @@ void run(const Cli& cli, const BuildArguments& options) {
 
 void add_build(Cli& cli) {
   auto options = std::make_shared<BuildArguments>();
-  CLI::App* verb = add_verb(cli, "build", "geometry of a plant: PLY, OBJ, GLB or patches (.bpt)",
-                            "bpms build wheat.bpms -o wheat.ply --also wheat.glb",
-                            [&cli, options] { run(cli, *options); });
-  verb->add_option("plant", options->plant, "plant file (.bpms)")->required();
+  CLI::App* verb = add_verb(
+      cli, "build", "geometry of a plant or a stand: PLY, OBJ, GLB, patches (.bpt); MTG, OPF, OPS",
+      "bpms build wheat.bpms -o wheat.ply --also wheat.glb", [&cli, options] { run(cli, *options); });
+  verb->add_option("plant", options->plant,
+                   "plant (.bpms, .mtg, .opf, .lsys, .lstr) or stand (canopy.toml, .ops)")
+      ->required();
+  add_exchange_options(verb, options->exchange);
   verb->add_option("--also", options->also, "further outputs, each of a kind told by its name");
   verb->add_option("--tolerance", options->tolerance,
                    "largest distance between triangles and surface (default 0.1mm)");

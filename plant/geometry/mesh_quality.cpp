@@ -8,7 +8,7 @@
 #include <unordered_map>
 
 #include "core/units.h"
-#include "plant/geometry/surface_crossing.h"
+#include "plant/geometry/triangle_crossing.h"
 
 namespace bpms {
 namespace {
@@ -130,7 +130,7 @@ std::vector<MeshCrossing> find_crossings(const Mesh& mesh, const std::vector<Fac
     const std::uint32_t organ = organ_index(mesh, a), other = organ_index(mesh, b);
     if (organ == other ? share_a_corner(faces[a], faces[b]) : !between_organs) return;
     const TriangleCorners corners = corners_of(mesh, a);
-    if (!surfaces_cross(corners, corners_of(mesh, b))) return;
+    if (!triangles_cross(corners, corners_of(mesh, b))) return;
     MeshCrossing& crossing = found[{organ, other}];
     if (crossing.pairs++ > 0) return;
     crossing.organ = organ, crossing.other = other;

@@ -10,48 +10,11 @@
 namespace bpms {
 namespace {
 
-using FacetVisit = std::function<void(const Facet&)>;
-
 constexpr int around = 48, along = 24;  // pieces of a shape
 
-// Which ends of a cylinder are to be seen.
-struct SeenEnds {
-  bool first = true, second = true;
-};
-constexpr SeenEnds both_ends{};
-
-std::uint64_t facets_of_shape(const Shape& shape, const SeenEnds& seen) {
+std::uint64_t facets_of_shape(const Shape& shape) {
   if (shape.kind == Shape::Kind::ellipsoid) return 2 * around * along;
-  return 2 * around + (shape.closed && seen.first ? around : 0) + (shape.closed && seen.second ? around : 0);
-}
-
-double seen_area_m2(const Shape& shape, const SeenEnds& seen) {
-  double out = shape_area_m2(shape);
-  if (shape.kind == Shape::Kind::ellipsoid || !shape.closed) return out;
-  if (!seen.first) out -= pi * std::pow(static_cast<double>(shape.size_m[0]), 2);
-  if (!seen.second) out -= pi * std::pow(static_cast<double>(shape.size_m[1]), 2);
-  return out;
-}
-
-// The links of an organ's chain follow each other; what lies a hair beyond an end tells whether it is hidden.
-SeenEnds seen_ends(const Prototype& prototype, std::size_t k) {
-  SeenEnds out;
-  const Shape& shape = prototype.shapes[k];
-  const std::uint32_t organ = prototype.organ_of(k);
-  if (organ == no_organ || shape.kind == Shape::Kind::ellipsoid) return out;
-  constexpr double hair = 1e-4;  // of the length
-  const Eigen::Vector3d from = shape.centre_m.cast<double>(), length(0, 0, shape.size_m[2]);
-  const auto hidden = [&](double along_axis) {
-    const Eigen::Vector3d beyond = from + shape.rotation * (along_axis * length).eval();
-    const bool before =
-        k > 0 && prototype.organ_of(k - 1) == organ && shape_contains(prototype.shapes[k - 1], beyond);
-    const bool behind = k + 1 < prototype.shapes.size() && prototype.organ_of(k + 1) == organ &&
-                        shape_contains(prototype.shapes[k + 1], beyond);
-    return before || behind;
-  };
-  out.first = !hidden(-hair);
-  out.second = !hidden(1 + hair);
-  return out;
+  return 2 * around + (shape.closed ? 2 * around : 0);
 }
 
 // Triangles of one part of a shape, brought to its exact area when all are there.
@@ -76,7 +39,7 @@ class ShapePart {
     add(a, b, c);
     add(a, c, d);
   }
-  void deliver(double exact_area, const FacetVisit& visit) {
+  void deliver(double exact_area, const std::function<void(const Facet&)>& visit) {
     for (Facet& facet : facets_) {
       facet.area_vector *= area_ > 0 ? exact_area / area_ : 0;
       visit(facet);
@@ -106,7 +69,35 @@ void visit_ellipsoid(const Shape& shape, ShapePart& part) {
     for (int k = 0; k < around; ++k) part.add(at(k, row), at(k + 1, row), at(k + 1, row + 1), at(k, row + 1));
 }
 
-void visit_seen_facets(const Shape& shape, const SeenEnds& seen, const FacetVisit& visit) {
+// Shapes that are parts of one organ are a chain, one behind the other: the ends between them lie inside, and
+// their area together is the organ's.
+void visit_shapes(const Prototype& prototype, const std::function<void(const Facet&)>& visit) {
+  const std::vector<Shape>& shapes = prototype.shapes;
+  for (std::size_t begin = 0, end = 0; begin < shapes.size(); begin = end) {
+    const std::uint32_t organ = prototype.organ_of(begin);
+    end = begin + 1;
+    while (organ != no_organ && end < shapes.size() && prototype.organ_of(end) == organ) ++end;
+    double area = 0;
+    std::vector<Facet> facets;
+    for (std::size_t k = begin; k < end; ++k)
+      visit_shape_facets(shapes[k],
+                         [&](const Facet& facet) {
+                           area += facet.area_vector.norm();
+                           facets.push_back(facet);
+                         },
+                         {k == begin, k + 1 == end});
+    const double scale = organ == no_organ || !(area > 0) ? 1 : prototype.mesh->organs[organ].area_m2 / area;
+    for (Facet& facet : facets) {
+      facet.area_vector *= scale;
+      facet.organ = organ;
+      visit(facet);
+    }
+  }
+}
+
+}  // namespace
+
+void visit_shape_facets(const Shape& shape, const std::function<void(const Facet&)>& visit, ShapeEnds which) {
   ShapePart part(shape);
   if (shape.kind == Shape::Kind::ellipsoid) {
     visit_ellipsoid(shape, part);
@@ -114,51 +105,27 @@ void visit_seen_facets(const Shape& shape, const SeenEnds& seen, const FacetVisi
     return;
   }
   const double first = shape.size_m[0], second = shape.size_m[1], length = shape.size_m[2];
+  const double ends = shape.closed ? pi * (first * first + second * second) : 0;
   for (int k = 0; k < around; ++k)
     part.add(on_circle(first, k, 0), on_circle(first, k + 1, 0), on_circle(second, k + 1, length),
              on_circle(second, k, length));
-  part.deliver(pi * (first + second) * std::hypot(length, second - first), visit);
+  part.deliver(shape_area_m2(shape) - ends, visit);
   if (!shape.closed) return;
-  for (int k = 0; seen.first && k < around; ++k)
+  for (int k = 0; which.first && k < around; ++k)
     part.add({0, 0, 0}, on_circle(first, k + 1, 0), on_circle(first, k, 0));
   part.deliver(pi * first * first, visit);
-  for (int k = 0; seen.second && k < around; ++k)
+  for (int k = 0; which.second && k < around; ++k)
     part.add({0, 0, length}, on_circle(second, k, length), on_circle(second, k + 1, length));
   part.deliver(pi * second * second, visit);
 }
 
-void visit_shapes(const Prototype& prototype, const FacetVisit& visit) {
-  std::vector<double> seen_of_organ(prototype.mesh ? prototype.mesh->organs.size() : 0, 0);
-  for (std::size_t k = 0; k < prototype.shapes.size(); ++k)
-    if (const std::uint32_t organ = prototype.organ_of(k); organ != no_organ)
-      seen_of_organ[organ] += seen_area_m2(prototype.shapes[k], seen_ends(prototype, k));
-  for (std::size_t k = 0; k < prototype.shapes.size(); ++k) {
-    const std::uint32_t organ = prototype.organ_of(k);
-    const double factor =
-        organ == no_organ ? 1 : prototype.mesh->organs[organ].area_m2 / seen_of_organ[organ];
-    visit_seen_facets(prototype.shapes[k], seen_ends(prototype, k), [&](const Facet& facet) {
-      Facet own = facet;
-      own.area_vector *= factor;
-      own.organ = organ;
-      visit(own);
-    });
-  }
-}
-
-}  // namespace
-
-void visit_shape_facets(const Shape& shape, const FacetVisit& visit) {
-  visit_seen_facets(shape, both_ends, visit);
-}
-
 std::uint64_t facet_count(const Prototype& prototype) {
   std::uint64_t out = prototype.discs.size() + (prototype.mesh ? prototype.mesh->triangles.size() : 0);
-  for (std::size_t k = 0; k < prototype.shapes.size(); ++k)
-    out += facets_of_shape(prototype.shapes[k], seen_ends(prototype, k));
+  for (const Shape& shape : prototype.shapes) out += facets_of_shape(shape);
   return out;
 }
 
-void visit_facets(const Prototype& prototype, const FacetVisit& visit) {
+void visit_facets(const Prototype& prototype, const std::function<void(const Facet&)>& visit) {
   Facet facet;
   facet.leaf = true;
   for (std::size_t k = 0; k < prototype.discs.size(); ++k) {

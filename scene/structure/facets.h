@@ -1,7 +1,5 @@
 // The surface of a prototype, one flat piece after the other: triangles of its mesh, discs, and shapes cut
-// into triangles of the same area. Shapes that an organ is made of show what is seen of them from outside
-// (not the ends that reach into their neighbours), and have the organ's area together. What counts as a leaf:
-// discs, and organs of kind "leaf".
+// into triangles of the same area. What counts as a leaf: discs, and organs of kind "leaf".
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -29,7 +27,12 @@ void visit_facets(const Prototype& prototype, const std::function<void(const Fac
 // How many it has.
 std::uint64_t facet_count(const Prototype& prototype);
 
-// A shape's surface as triangles; the area of each part (side, ends) is the exact one.
-void visit_shape_facets(const Shape& shape, const std::function<void(const Facet&)>& visit);
+// A shape's surface as triangles; the area of each part (side, ends) is the exact one. Of a closed cylinder
+// the ends that are asked for.
+struct ShapeEnds {
+  bool first = true, second = true;
+};
+void visit_shape_facets(const Shape& shape, const std::function<void(const Facet&)>& visit,
+                        ShapeEnds ends = {});
 
 }  // namespace bpms

@@ -1,8 +1,9 @@
-#include "plant/geometry/surface_crossing.h"
+#include "plant/geometry/triangle_crossing.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bpms {
 namespace {
@@ -12,6 +13,16 @@ TriangleCorners shrunk(const TriangleCorners& t) {
   constexpr double by = 1e-4;
   const Eigen::Vector3d middle = (t[0] + t[1] + t[2]) / 3;
   return {t[0] + by * (middle - t[0]), t[1] + by * (middle - t[1]), t[2] + by * (middle - t[2])};
+}
+
+// Does the stretch from p to q go through the triangle (Moller and Trumbore 1997)?
+bool goes_through(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const TriangleCorners& t) {
+  const Eigen::Vector3d d = q - p, e1 = t[1] - t[0], e2 = t[2] - t[0], h = d.cross(e2);
+  const double determinant = e1.dot(h);
+  if (determinant == 0) return false;
+  const Eigen::Vector3d s = p - t[0], k = s.cross(e1);
+  const double u = s.dot(h) / determinant, v = d.dot(k) / determinant, along = e2.dot(k) / determinant;
+  return u >= 0 && v >= 0 && u + v <= 1 && along >= 0 && along <= 1;
 }
 
 // Two triangles of one plane: no side of either has the other wholly beyond it.
@@ -31,19 +42,25 @@ bool overlap_in_plane(const TriangleCorners& a, const TriangleCorners& b, const 
 
 }  // namespace
 
-bool surfaces_cross(const TriangleCorners& first, const TriangleCorners& second) {
+bool triangles_cross(const TriangleCorners& first, const TriangleCorners& second) {
   const TriangleCorners a = shrunk(first), b = shrunk(second);
   const Eigen::Vector3d normal = (a[1] - a[0]).cross(a[2] - a[0]);
   const double twice_area = normal.norm();
   if (!(twice_area > 0)) return false;
-  double nearest = 0, farthest = 0;  // of b's corners from a's plane, signed
+  double lowest = std::numeric_limits<double>::infinity(),
+         highest = -lowest;  // of b's corners over a's plane
   for (const Eigen::Vector3d& corner : b) {
     const double height = (corner - a[0]).dot(normal) / twice_area;
-    nearest = std::min(nearest, height), farthest = std::max(farthest, height);
+    lowest = std::min(lowest, height), highest = std::max(highest, height);
   }
   constexpr double flat = 1e-5;
+  const double nearest = std::min(0.0, lowest), farthest = std::max(0.0, highest);
   if (farthest - nearest < flat * std::sqrt(twice_area)) return overlap_in_plane(a, b, normal / twice_area);
-  return triangles_cross(a, b);
+  if (lowest > 0 || highest < 0) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (goes_through(a[k], a[(k + 1) % 3], b) || goes_through(b[k], b[(k + 1) % 3], a)) return true;
+  }
+  return false;
 }
 
 }  // namespace bpms
