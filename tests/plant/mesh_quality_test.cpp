@@ -59,6 +59,22 @@ TEST(MeshQuality, SaysWhichOrgansCross) {
   EXPECT_THAT(pairs, testing::UnorderedElementsAre("s1l1", "s1l2", "l1l2"));
 }
 
+// Two organs of a triangle each, at right angles: they have an edge in common, or go through each other.
+TEST(MeshQuality, TellsTouchingFromCrossing) {
+  MeshQualityOptions between;
+  between.between_organs = true;
+  for (const float low : {0.0f, -0.01f, 0.01f}) {
+    Mesh mesh;
+    mesh.positions_m = {{0, 0, 0},         {1, 0, 0},         {0.5f, 1, 0},
+                        {0.2f, 0.2f, low}, {0.7f, 0.2f, low}, {0.5f, 0.2f, 1}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    mesh.organ_of_triangle = {0, 1};
+    mesh.organs.resize(2);
+    EXPECT_EQ(mesh_quality(mesh, between).crossings.size(), low < 0 ? 1u : 0u) << low;
+    EXPECT_TRUE(mesh_quality(mesh).crossings.empty());
+  }
+}
+
 TEST(MeshQuality, MeasuresTriangles) {
   Mesh mesh;
   mesh.positions_m = {{0, 0, 0},    {1, 0, 0}, {0.5f, 0.8660254f, 0}, {2, 0.001f, 0}, {0.5f, -1, 0},
