@@ -15,7 +15,7 @@
 #include "plant/mesh_mass.h"
 #include "plant/mesh_quality.h"
 #include "plant/plant_mesh.h"
-#include "plant/structure.h"
+#include "plant/structure/orientation.h"
 
 namespace bpms {
 namespace {
@@ -88,12 +88,16 @@ Json quality_json(const Mesh& mesh, bool between_organs) {
 Json levels_json(const std::vector<MeshLevel>& levels) {
   Json out = Json::array();
   for (const MeshLevel& level : levels) {
-    const FacetStructure facets = facet_structure({{&level.mesh}}, {});
-    out.push_back({{"tolerance_m", level.tolerance_m},
-                   {"triangles", level.mesh.triangles.size()},
-                   {"deviation_m", level.deviation_m},
-                   {"leaf_area_m2", facets.total_leaf_area_m2},
-                   {"mean_leaf_angle_deg", facets.mean_leaf_angle_deg}});
+    FacetOrientation leaves;
+    for (std::size_t t = 0; t < level.mesh.triangles.size(); ++t)
+      if (level.mesh.organs[level.mesh.organ_of_triangle[t]].kind == "leaf")
+        leaves.add(triangle_area_vector(level.mesh, t));
+    out.push_back(
+        {{"tolerance_m", level.tolerance_m},
+         {"triangles", level.mesh.triangles.size()},
+         {"deviation_m", level.deviation_m},
+         {"leaf_area_m2", leaves.area()},
+         {"mean_leaf_angle_deg", leaves.empty() ? Json() : Json(degrees(leaves.mean_inclination()))}});
   }
   return out;
 }

@@ -6,9 +6,10 @@
 
 #include <cmath>
 
+#include "core/units.h"
 #include "plant/mesh_levels.h"
 #include "plant/plant_mesh.h"
-#include "plant/structure.h"
+#include "plant/structure/orientation.h"
 
 namespace bpms {
 namespace {
@@ -77,19 +78,26 @@ TEST(MeshQuality, MeasuresTriangles) {
   EXPECT_EQ(mesh_quality(mesh).degenerate, 1u);
 }
 
+FacetOrientation leaf_facets(const Mesh& mesh) {
+  FacetOrientation out;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.organs[mesh.organ_of_triangle[t]].kind == "leaf") out.add(triangle_area_vector(mesh, t));
+  return out;
+}
+
 TEST(MeshLevels, KeepAreaAndAnglesWithFewerTriangles) {
   const Plant plant = read_plant(std::string(BPMS_SOURCE_DIR) + "/examples/plants/grass.bpms");
   const std::vector<MeshLevel> levels = mesh_levels(plant, {1e-4}, 4);
   ASSERT_EQ(levels.size(), 4u);
-  const FacetStructure finest = facet_structure({{&levels[0].mesh}}, {0, 57.5});
+  const FacetOrientation finest = leaf_facets(levels[0].mesh);
   EXPECT_EQ(levels[0].deviation_m, 0);
   for (std::size_t k = 1; k < levels.size(); ++k) {
     EXPECT_DOUBLE_EQ(levels[k].tolerance_m, 1e-4 * std::pow(4, k));
     EXPECT_LT(levels[k].mesh.triangles.size(), levels[k - 1].mesh.triangles.size());
-    const FacetStructure coarse = facet_structure({{&levels[k].mesh}}, {0, 57.5});
-    EXPECT_NEAR(coarse.total_leaf_area_m2, finest.total_leaf_area_m2, 1e-3 * finest.total_leaf_area_m2);
-    EXPECT_NEAR(coarse.mean_leaf_angle_deg, finest.mean_leaf_angle_deg, 2) << k;
-    EXPECT_NEAR(coarse.g_function[0].g, finest.g_function[0].g, 0.02) << k;
+    const FacetOrientation coarse = leaf_facets(levels[k].mesh);
+    EXPECT_NEAR(coarse.area(), finest.area(), 1e-3 * finest.area());
+    EXPECT_NEAR(degrees(coarse.mean_inclination()), degrees(finest.mean_inclination()), 2) << k;
+    EXPECT_NEAR(coarse.g(0), finest.g(0), 0.02) << k;
     // Either is within its tolerance of the surface.
     EXPECT_LT(levels[k].deviation_m, levels[k].tolerance_m + levels[0].tolerance_m);
     EXPECT_GT(levels[k].deviation_m, 0);
