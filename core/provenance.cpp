@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <openssl/sha.h>
+#include <algorithm>
 
 #include <array>
 
@@ -23,6 +24,8 @@ std::string sha256(std::string_view bytes) {
 }
 
 void Provenance::add_input(const std::string& path) {
+  const auto is_path = [&](const Input& input) { return input.path == path; };
+  if (std::ranges::any_of(inputs, is_path)) return;  // what several files include
   inputs.push_back({path, bpms::sha256(read_file(path))});
 }
 

@@ -21,7 +21,7 @@ struct Provenance {
     std::string sha256;
   };
   std::vector<Input> inputs;
-  void add_input(const std::string& path);  // reads and hashes the file
+  void add_input(const std::string& path);  // reads and hashes the file; a second time: nothing
   Json json() const;                        // {version, command, seed, inputs:[{path, sha256}]}
 };
 

@@ -8,6 +8,7 @@
 #include "apps/bpms/verbs.h"
 #include "calibrate/rig.h"
 #include "calibrate/target.h"
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/records.h"
@@ -15,6 +16,8 @@
 #include "plant/canopy.h"
 #include "plant/plant.h"
 #include "plant/plant_file.h"
+#include "plant/plant_format.h"
+#include "plant/plant_library.h"
 #include "simulate/simulate.h"
 
 namespace bpms {
@@ -25,6 +28,9 @@ bool first_line_has(std::string_view text, std::string_view word) {
 }
 
 std::string check_plant(const std::string& path) {
+  if (const auto library = parse_plant_library(path, read_text(path)))
+    return fmt::format("a library: {} constants, {} organs, {} blocks", library->constants.size(),
+                       library->organs.size(), library->blocks);
   const Plant plant = read_plant(path);
   for (const std::string& warning : plant.warnings) note(warning);
   return fmt::format("{} organs, {} blocks, {} notes", place_organs(plant).size(), plant.blocks.size(),
@@ -96,6 +102,28 @@ const std::vector<FileKind>& kinds() {
   return table;
 }
 
+// Plants that read without an error, laid out anew: the one on stdout, or all of them in place.
+void format_plants(const Cli& cli, const std::vector<std::string>& files) {
+  if (files.size() > 1 && !cli.common.overwrite)
+    bad_input({}, "--format prints one file; give --overwrite to rewrite {} files in place", files.size());
+  Json results = Json::array();
+  for (const std::string& path : files) {
+    if (!path.ends_with(".bpms")) bad_input({path}, "--format is for plants (.bpms)");
+    check_plant(path);
+    const std::string text = read_text(path);
+    const std::string formatted = formatted_plant(path, text);
+    const bool changed = formatted != text;
+    results.push_back({{"file", path}, {"changed", changed}});
+    if (!cli.common.overwrite) {
+      if (!cli.common.json) fmt::print("{}", formatted);
+      continue;
+    }
+    if (changed) write_file(path, formatted, true);
+    if (!cli.common.json) fmt::print("{}: {}\n", path, changed ? "formatted" : "unchanged");
+  }
+  deliver_report(cli, "check", {{"files", results}}, provenance(cli));
+}
+
 void run(const Cli& cli, const std::vector<std::string>& files) {
   Json results = Json::array();
   for (const std::string& path : files) {
@@ -116,10 +144,13 @@ void run(const Cli& cli, const std::vector<std::string>& files) {
 
 void add_check(Cli& cli) {
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* verb =
-      add_verb(cli, "check", "validate any file that bpms reads",
-               "bpms check wheat.bpms scene.toml vectors.csv", [&cli, files] { run(cli, *files); });
+  auto format = std::make_shared<bool>(false);
+  CLI::App* verb = add_verb(
+      cli, "check", "validate any file that bpms reads", "bpms check wheat.bpms scene.toml vectors.csv",
+      [&cli, files, format] { *format ? format_plants(cli, *files) : run(cli, *files); });
   verb->add_option("files", *files, "files of any kind")->required();
+  verb->add_flag("--format", *format,
+                 "print a plant evenly laid out; with --overwrite rewrite plants in place");
 }
 
 }  // namespace bpms

@@ -1,26 +1,104 @@
-#include <cmath>
-#include <limits>
+#include <CLI/Option.hpp>
+#include <algorithm>
+#include <filesystem>
 
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/toml.h"
+#include "core/units.h"
 #include "plant/plant_file.h"
+#include "scene/importers/mesh_file.h"
 #include "scene/importers/plants.h"
-#include "scene/structure/structure.h"
+#include "scene/structure/structure_report.h"
+#include "simulate/materials/leaf_optics.h"
 
 namespace bpms {
 namespace {
 
 struct DescribeArguments {
   std::string file;
-  std::uint32_t rays = GapOptions{}.rays;
+  StructureOptions structure;
+  std::string zenith;
+  std::string reflectance, transmittance, materials, incidence = "0,30,60";
+  int fisheye = 0;
+  std::string fisheye_at;
+  std::string unit, up;             // of mesh files
+  std::vector<std::string> leaves;  // materials or groups of a mesh file that are leaves
+  bool rays_given = false;
 };
 
-// A plant, a canopy or a scene, told by name and content.
-Scene read_structure(const std::string& path) {
+std::vector<std::string> pieces(const std::string& text, char separator) {
+  std::vector<std::string> out;
+  std::size_t from = 0;
+  while (true) {
+    const std::size_t to = text.find(separator, from);
+    out.push_back(text.substr(from, to - from));
+    if (to == std::string::npos) return out;
+    from = to + 1;
+  }
+}
+
+double option_number(const std::string& option, const std::string& text, double low, double high) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || *value < low || *value > high)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {} where a number from {:g} to {:g} is expected",
+                                                  option, in_quotes(text), low, high));
+  return *value;
+}
+
+std::vector<double> option_numbers(const std::string& option, const std::string& text, double low,
+                                   double high) {
+  std::vector<double> out;
+  for (const std::string& piece : pieces(text, ',')) out.push_back(option_number(option, piece, low, high));
+  return out;
+}
+
+bool is_mesh_file(const std::string& path) {
+  std::string type = std::filesystem::path(path).extension().string();
+  std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+  return type == ".ply" || type == ".obj" || type == ".glb" || type == ".gltf";
+}
+
+// A mesh alone, in an open scene of its own. `leaves`: its groups or materials that are leaves, beside those
+// whose names say so.
+Scene mesh_scene(const DescribeArguments& options) {
+  Scene scene;
+  scene.domain.periodic = false;
+  const double unit = options.unit.empty() ? 1 : metres_per_unit(options.unit, {"--unit"});
+  const bool y_up = options.up.empty() ? mesh_file_is_y_up(options.file) : options.up == "y";
+  Mesh mesh = *read_mesh_file(options.file, unit, y_up);
+  for (const std::string& name : options.leaves) {
+    bool used = false;
+    for (Mesh::Organ& organ : mesh.organs) {
+      if (organ.material != name && organ.label != name) continue;
+      organ.kind = "leaf";
+      used = true;
+    }
+    if (!used) bad_input({options.file}, "no group and no material is called {} (--leaves)", in_quotes(name));
+  }
+  Prototype& prototype = scene.prototypes.emplace_back();
+  prototype.name = std::filesystem::path(options.file).stem().string();
+  MaterialNames names(scene);
+  for (const Mesh::Organ& organ : mesh.organs)
+    prototype.material_of_organ.push_back(
+        names.number(organ.material.empty() ? "unnamed" : organ.material, {options.file}));
+  prototype.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  scene.instances.emplace_back();
+  scene.inputs.push_back(options.file);
+  return scene;
+}
+
+// A plant, a canopy, a scene or a mesh, told by name and content.
+Scene read_structure(const DescribeArguments& options) {
+  const std::string& path = options.file;
+  if (is_mesh_file(path)) return mesh_scene(options);
+  if (!options.leaves.empty() || !options.unit.empty() || !options.up.empty())
+    throw Error(ErrorKind::bad_input,
+                "--leaves, --unit and --up are for mesh files (.ply, .obj, .glb, .gltf)");
   if (is_plant_file(path)) return plant_scene(path);
   if (path.ends_with(".ops")) return ops_scene(path);
   const TomlDocument document = TomlDocument::read(path);
@@ -31,102 +109,140 @@ Scene read_structure(const std::string& path) {
   return scene;
 }
 
-Json gaps_json(const std::vector<Gap>& gaps) {
-  Json out = Json::array();
-  for (const Gap& gap : gaps)
-    out.push_back({{"zenith_deg", gap.zenith_deg}, {"p", gap.p}, {"standard_error", gap.standard_error}});
-  return out;
-}
-
-Json leaf_angle_json(const FacetStructure& facets) {
-  Json bins = Json::array();
-  for (const auto& bin : facets.leaf_angle)
-    bins.push_back({{"from_deg", bin.from_deg},
-                    {"to_deg", bin.to_deg},
-                    {"probability", bin.probability},
-                    {"density_per_deg", bin.density_per_deg}});
-  return {{"mean_deg", bins.empty() ? Json(nullptr) : json_number(facets.mean_leaf_angle_deg)},
-          {"bins", bins}};
-}
-
-Json organs_json(const Scene& scene) {
-  Json out = Json::array();
-  for (const Prototype& prototype : scene.prototypes) {
-    if (!prototype.mesh) continue;
-    for (std::size_t k = 0; k < prototype.mesh->organs.size(); ++k) {
-      const Mesh::Organ& organ = prototype.mesh->organs[k];
-      out.push_back({{"id", organ.id},
-                     {"label", organ.label},
-                     {"kind", organ.kind},
-                     {"material", scene.materials[prototype.material_of_organ[k]]},
-                     {"length_m", json_number(organ.length_m)},
-                     {"area_m2", organ.area_m2},
-                     {"plant", prototype.name}});
+// "0.1" for all leaves, or "leaf=0.1,flag=0.2" by material.
+void add_optics(const std::string& option, const std::string& text, const SurfaceSums& surface,
+                double LeafOptics::*which, BandOptics& band) {
+  for (const std::string& piece : pieces(text, ',')) {
+    const std::size_t equals = piece.rfind('=');
+    const double value =
+        option_number(option, equals == std::string::npos ? piece : piece.substr(equals + 1), 0, 1);
+    if (equals == std::string::npos) {
+      for (const auto& of : surface.leaves_of_material) band.of_material[of.first].*which = value;
+      continue;
     }
+    const std::string name = piece.substr(0, equals);
+    if (!surface.leaves_of_material.contains(name))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: no leaves are of material {}", option, in_quotes(name)));
+    band.of_material[name].*which = value;
   }
-  return out;
 }
 
-Json describe(const Scene& scene, const CanopyStructure& structure) {
-  Json g = Json::array(), clumping = Json::array(), materials = Json::object();
-  for (const auto& point : structure.facets.g_function)
-    g.push_back({{"zenith_deg", point.zenith_deg}, {"g", point.g}});
-  for (const Clumping& c : structure.clumping)
-    clumping.push_back(
-        {{"zenith_deg", c.zenith_deg}, {"index", c.index}, {"standard_error", c.standard_error}});
-  for (const auto& [name, area] : structure.material_area_m2) materials[name] = {{"area_m2", area}};
-  const bool ground = structure.ground_area_m2 > 0;
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  const Gap down = structure.gaps.empty() ? Gap{0, none, none} : structure.gaps.front();
-  return {{"leaf_area_m2", structure.facets.total_leaf_area_m2},
-          {"ground_area_m2", ground ? Json(structure.ground_area_m2) : Json(nullptr)},
-          {"ground_area_of", structure.ground_is_domain ? "domain" : "convex_hull"},
-          {"lai", ground ? Json(structure.lai) : Json(nullptr)},
-          {"height_m", structure.height_m},
-          {"cover", json_number(1 - down.p)},
-          {"cover_standard_error", json_number(down.standard_error)},
-          {"gap_fraction", gaps_json(structure.gaps)},
-          {"g_function", g},
-          {"leaf_angle", leaf_angle_json(structure.facets)},
-          {"materials", materials},
-          {"organs", organs_json(scene)},
-          {"clumping", clumping},
-          {"instances", scene.instances.size()},
-          {"notes", scene.notes}};
+std::vector<BandOptics> leaf_bands(const DescribeArguments& options, const SurfaceSums& surface,
+                                   std::vector<std::string>& inputs) {
+  const bool by_hand = !options.reflectance.empty() || !options.transmittance.empty();
+  if (by_hand && !options.materials.empty())
+    throw Error(ErrorKind::bad_input,
+                "--materials and --rho, --tau both give the optics of leaves: choose one");
+  if (!options.materials.empty()) {
+    std::vector<std::string> names;
+    for (const auto& of : surface.leaves_of_material) names.push_back(of.first);
+    SceneOptics optics = read_leaf_optics(options.materials, names);
+    inputs.insert(inputs.end(), optics.inputs.begin(), optics.inputs.end());
+    for (const std::string& message : optics.notes) note(message);
+    return optics.bands;
+  }
+  if (!by_hand) return {};
+  BandOptics band;
+  add_optics("--rho", options.reflectance, surface, &LeafOptics::reflectance, band);
+  if (!options.transmittance.empty())
+    add_optics("--tau", options.transmittance, surface, &LeafOptics::transmittance, band);
+  for (const auto& [name, of] : band.of_material) {
+    constexpr double rounding = 1e-12;
+    if (of.reflectance + of.transmittance > 1 + rounding)
+      throw Error(ErrorKind::bad_input, fmt::format("--rho and --tau of {} add to {:g}, more than 1",
+                                                    in_quotes(name), of.reflectance + of.transmittance));
+  }
+  return {band};
 }
 
-void run(const Cli& cli, const DescribeArguments& options) {
-  const Scene scene = read_structure(options.file);
+void add_fisheye(const DescribeArguments& options, const GapScene& rays, StructureReport& report) {
+  if (options.fisheye <= 0) {
+    if (!options.fisheye_at.empty()) throw Error(ErrorKind::bad_input, "--fisheye-at needs --fisheye PIXELS");
+    return;
+  }
+  report.fisheye_at_m = rays.footprint().point(0.5, 0.5);
+  if (!options.fisheye_at.empty()) {
+    const std::vector<double> at = option_numbers("--fisheye-at", options.fisheye_at, -1e7, 1e7);
+    if (at.size() != 2) throw Error(ErrorKind::bad_input, "--fisheye-at: expected X,Y in metres");
+    report.fisheye_at_m = {at[0], at[1]};
+  }
+  report.fisheye = fisheye_picture(rays, report.fisheye_at_m, options.fisheye);
+}
+
+void run(const Cli& cli, DescribeArguments options) {
+  options.structure.gaps.seed = cli.common.seed;
+  if (!options.zenith.empty())
+    options.structure.zenith_deg = option_numbers("--zenith", options.zenith, 0, 89.9);
+  if (options.structure.gaps.target_se > 0 && !options.rays_given) options.structure.gaps.rays = 1u << 26;
+  const std::vector<double> incidence = option_numbers("--incidence", options.incidence, 0, 90);
+  const Scene scene = read_structure(options);
+  std::vector<std::string> inputs = scene.inputs;
+  const GapScene rays(scene);
+  const CanopyStructure structure = canopy_structure(scene, rays, options.structure);
+  StructureReport report;
+  report.scene = &scene;
+  report.structure = &structure;
+  report.bands = leaf_bands(options, structure.surface, inputs);
+  report.scattering = scattering_tables(structure.surface, report.bands, incidence);
+  add_fisheye(options, rays, report);
   for (const std::string& message : scene.notes) note(message);
+  for (const std::string& message : structure.notes) note(message);
   Provenance from = provenance(cli, true);
   from.add_input(options.file);
-  for (const std::string& input : scene.inputs)
+  for (const std::string& input : inputs)
     if (input != options.file) from.add_input(input);
-  const CanopyStructure structure = canopy_structure(scene, {options.rays, cli.common.seed});
-  const Json report = describe(scene, structure);
-  if (!cli.common.json) {
-    fmt::print("leaf area   {:.6g} m2\n", structure.facets.total_leaf_area_m2);
-    fmt::print("ground area {:.6g} m2 ({})\n", structure.ground_area_m2,
-               structure.ground_is_domain ? "domain" : "convex hull of the plan view");
-    fmt::print("LAI         {:.4g}\n", structure.lai);
-    fmt::print("height      {:.4g} m\n", structure.height_m);
-    fmt::print("mean leaf inclination {:.2f} degrees\n", structure.facets.mean_leaf_angle_deg);
-    fmt::print("gap fraction at zenith:\n");
-    for (const Gap& gap : structure.gaps)
-      fmt::print("  {:5.1f}  {:.5f} +- {:.5f}\n", gap.zenith_deg, gap.p, gap.standard_error);
-  }
-  deliver_report(cli, "describe", report, from);
+  if (!cli.common.output.empty())
+    write_file(require_output(cli), structure_csv(report), cli.common.overwrite);
+  if (!cli.common.json) fmt::print("{}", structure_text(report));
+  deliver_report(cli, "describe", structure_json(report), from);
 }
 
 }  // namespace
 
 void add_describe(Cli& cli) {
   auto options = std::make_shared<DescribeArguments>();
-  CLI::App* verb = add_verb(cli, "describe", "structure of a plant, a canopy or a scene: areas, angles, gaps",
-                            "bpms describe canopy.toml --json", [&cli, options] { run(cli, *options); });
-  verb->add_option("file", options->file, "plant (.bpms), canopy.toml or scene.toml")->required();
-  verb->add_option("--rays", options->rays, "rays for each zenith angle of the gap fraction (default 65536)")
+  CLI::App* verb =
+      add_verb(cli, "describe", "structure of a plant, a canopy, a scene or a mesh: areas, angles, G, gaps",
+               "bpms describe canopy.toml --json\n  bpms describe tree.obj --leaves foliage -o tree.csv\n"
+               "  bpms describe scene.toml --azimuths 12 --target-se 0.002 --fisheye 400 --report stand.html",
+               [&cli, options] { run(cli, *options); });
+  GapOptions& gaps = options->structure.gaps;
+  verb->add_option("file", options->file,
+                   "plant (.bpms), canopy.toml, scene.toml or mesh (.ply .obj .glb .gltf)")
+      ->required();
+  verb->add_option(
+      "--zenith", options->zenith,
+      "zenith angles of the gap fraction, degrees below 90: 0,30,57.5 (default 0 to 85 by 5, and 57.5)");
+  verb->add_option_function<std::uint32_t>(
+          "--rays",
+          [options](std::uint32_t rays) { options->structure.gaps.rays = rays, options->rays_given = true; },
+          "rays for each zenith angle (default 65536); with --target-se at most")
       ->check(CLI::Range(32, 1 << 28));
+  verb->add_option("--target-se", gaps.target_se,
+                   "ends a zenith angle when the standard errors of its gap fractions are below")
+      ->check(CLI::Range(1e-6, 0.5));
+  verb->add_option("--azimuths", options->structure.sectors,
+                   "sectors of azimuth that gaps are told for (default 1)")
+      ->check(CLI::Range(1, 360));
+  verb->add_option("--layers", options->structure.layers, "layers of the profile of leaf area (default 20)")
+      ->check(CLI::Range(1, 10000));
+  verb->add_option(
+      "--rho", options->reflectance,
+      "reflectance of leaves, for their area scattering phase function: 0.1, or leaf=0.1,flag=0.12");
+  verb->add_option("--tau", options->transmittance, "their transmittance, likewise (default 0)");
+  verb->add_option("--materials", options->materials, "a scene.toml whose [materials] and [bands] give both");
+  verb->add_option("--incidence", options->incidence, "zenith angles of the light for it (default 0,30,60)");
+  verb->add_option("--fisheye", options->fisheye,
+                   "a hemispherical picture of the gaps in the report, so many pixels wide")
+      ->check(CLI::Range(16, 4096));
+  verb->add_option("--fisheye-at", options->fisheye_at,
+                   "where on the ground: X,Y in metres (default the middle)");
+  verb->add_option("--leaves", options->leaves, "groups or materials of a mesh file that are leaves")
+      ->delimiter(',');
+  verb->add_option("--unit", options->unit, "unit of a mesh file: m, cm, mm ... (default m)");
+  verb->add_option("--up", options->up, "axis that is up in a mesh file (default y for glTF, z for the rest)")
+      ->check(CLI::IsMember({"y", "z"}));
 }
 
 }  // namespace bpms

@@ -75,6 +75,8 @@ Ridges read_ridges(const TomlValue& table, PlantingField& field) {
   Ridges out;
   const TomlValue spacing = table.get("spacing_m"), azimuth = table.get("azimuth_deg");
   const TomlValue on = table.get("plants_on");
+  for (const char* later : {"height_m", "shape", "width_m", "top_m", "phase", "resolution_m"})
+    table.get(later);
   if (spacing) {
     out.lines =
         fit_row_lines(spacing.positive(), radians(azimuth ? azimuth.number() : 0), "ridges", spacing, field);

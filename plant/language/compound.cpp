@@ -8,7 +8,7 @@
 namespace bpms {
 namespace {
 
-constexpr std::size_t most_parts = 1'000'000;
+constexpr std::size_t most_parts = 1'000'000, most_written_symbols = 100'000;
 constexpr int deepest_nesting = 32;
 
 struct DefinitionText {
@@ -130,8 +130,8 @@ int CompoundBuilder::instance(const CompoundUse& use) {
   std::vector<std::string> warnings;
   DefinitionText text = read_definition(names_, definition, values, options_.lenient, warnings);
   symbols_ += text.word.size() + text.blocks.size();
-  if (symbols_ > most_parts)
-    semantic_error(use.where, "organs made of organs with more than {} symbols in all", most_parts);
+  if (symbols_ > most_written_symbols)
+    semantic_error(use.where, "organs made of organs with more than {} symbols in all", most_written_symbols);
   CompoundOrgan organ;
   organ.name = use.organ;
   static_cast<OrganWord&>(organ) = assign_blocks(std::move(text.word), text.blocks, warnings);

@@ -33,6 +33,7 @@ std::vector<Symbol> parse_word(const PlantTokens& text, std::size_t begin, std::
                                const Scope& scope, bool lenient, std::vector<std::string>& warnings);
 // The token where the first block begins: the letter before "{" or before "NUMBER {".
 std::size_t first_block(const PlantTokens& text, std::size_t begin);
+bool begins_block(const PlantTokens& text, std::size_t at);
 
 // c 1 { organ frond len 12 }: which organ, and the values of its parameters.
 struct CompoundUse {

@@ -18,6 +18,11 @@ bool like_number(std::string_view text) {
 
 }  // namespace
 
+bool begins_block(const PlantTokens& text, std::size_t at) {
+  return at < text.tokens.size() && is_organ_letter(text.tokens[at].text) &&
+         (text.is(at + 1, "{") || (text.is(at + 2, "{") && like_number(text.tokens[at + 1].text)));
+}
+
 std::size_t first_block(const PlantTokens& text, std::size_t begin) {
   std::size_t brace = begin;
   while (brace < text.tokens.size() && text.tokens[brace].text != "{" && text.tokens[brace].text != "}")

@@ -192,9 +192,7 @@ class StatementReader {
   }
 
   void read_block(const PlantTokens& text, std::size_t& at, const std::string& unit) {
-    const bool header = organ_letters.find(text.tokens[at].text) != std::string_view::npos &&
-                        text.tokens[at].text.size() == 1 && (text.is(at + 1, "{") || text.is(at + 2, "{"));
-    if (!header)
+    if (!begins_block(text, at))
       syntax_error(text.where(at),
                    "found {}, expected let, organ, include or a block; a file that is included holds no word",
                    in_quotes(text.tokens[at].text));

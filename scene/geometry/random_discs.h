@@ -7,19 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "plant/structure/de_wit.h"
 #include "scene/scene.h"
 
 namespace bpms {
-
-// Leaf inclination from the horizontal = zenith of the upper normal (de Wit 1965).
-enum class LeafAngles { spherical, planophile, erectophile, plagiophile, extremophile, uniform };
-
-// Density of the inclination in [0, pi/2], per radian.
-double leaf_angle_density(LeafAngles angles, double inclination);
-// The inclination at cumulative probability u.
-double leaf_angle_quantile(LeafAngles angles, double u);
-// G(t): projection of one-sided unit leaf area on the plane normal to a direction of zenith t.
-double g_function(LeafAngles angles, double zenith);
 
 struct RandomDiscs {
   double lai = 3;

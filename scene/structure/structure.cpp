@@ -1,9 +1,9 @@
 #include "scene/structure/structure.h"
 
-#include <Eigen/Geometry>
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/units.h"
 #include "scene/intersect/box.h"
@@ -11,103 +11,103 @@
 namespace bpms {
 namespace {
 
-// For the sums over facets a disc is a triangle of its area and normal; where it lies does not matter. One
-// organ a material.
-Mesh disc_facets(const Prototype& prototype, const std::vector<std::string>& materials) {
-  Mesh out;
-  std::map<std::uint32_t, std::uint32_t> organ_of_material;
-  for (std::size_t k = 0; k < prototype.discs.size(); ++k) {
-    const Disc& disc = prototype.discs[k];
-    const std::uint32_t material =
-        prototype.material_of_disc.empty() ? prototype.disc_material : prototype.material_of_disc[k];
-    const auto organ =
-        organ_of_material.emplace(material, static_cast<std::uint32_t>(out.organs.size())).first->second;
-    if (organ == out.organs.size()) out.organs.push_back({0, "discs", "leaf", materials[material], 0, 0});
-    const Eigen::Vector3d n = disc.normal.cast<double>();
-    const Eigen::Vector3d a = n.unitOrthogonal();
-    const Eigen::Vector3d b = n.cross(a);
-    // An equilateral triangle of circumradius R has the area 3 sqrt(3) / 4 R^2.
-    const double r = disc.radius_m;
-    const double circumradius = r * std::sqrt(pi / (0.75 * std::sqrt(3.0)));
-    const auto first = static_cast<std::uint32_t>(out.positions_m.size());
-    for (int corner = 0; corner < 3; ++corner) {
-      const double t = 2 * pi * corner / 3;
-      out.positions_m.push_back((circumradius * (std::cos(t) * a + std::sin(t) * b)).cast<float>());
-      out.normals.push_back(disc.normal);
-    }
-    out.triangles.push_back({first, first + 1, first + 2});
-    out.organ_of_triangle.push_back(organ);
-    out.organs[organ].area_m2 += pi * r * r;
+// Of the highest point above the ground beneath its plant's base.
+double height_above(const Scene& scene, const Ground& ground) {
+  std::vector<Box> own;
+  for (const Prototype& prototype : scene.prototypes) own.push_back(bounds(prototype));
+  double out = 0;
+  for (const Instance& instance : scene.instances) {
+    const Box box = bounds(own[instance.prototype], instance);
+    if (box.empty()) continue;
+    out = std::max(out, box.high.z() - ground.height_at(instance.position_m.head<2>().eval()));
   }
   return out;
 }
 
-double nearest_g(const FacetStructure& facets, double zenith_deg) {
-  for (const auto& point : facets.g_function)
-    if (std::abs(point.zenith_deg - zenith_deg) < 1e-9) return point.g;
-  return std::numeric_limits<double>::quiet_NaN();
+void add_gaps(const GapScene& rays, const StructureOptions& options, CanopyStructure& out) {
+  std::vector<double> zenith_deg = options.zenith_deg;
+  std::sort(zenith_deg.begin(), zenith_deg.end());
+  zenith_deg.erase(std::unique(zenith_deg.begin(), zenith_deg.end()), zenith_deg.end());
+  GapOptions gaps = options.gaps;
+  // So many rays, or such an error, for the mean over azimuth.
+  gaps.rays = std::max(1u, gaps.rays / static_cast<std::uint32_t>(options.sectors));
+  gaps.target_se *= std::sqrt(options.sectors);
+  out.sectors = options.sectors;
+  std::vector<GapDirection> directions = gap_directions(zenith_deg, options.sectors);
+  std::vector<Gap> all = gap_fraction(rays, directions, gaps);
+  out.gaps = mean_over_azimuth(all, options.sectors);
+  if (options.sectors > 1) out.gaps_by_azimuth = std::move(all);
+  GapOptions ring_options = options.gaps;
+  ring_options.seed += 0x72696e67;  // other rays than those of the angles
+  out.rings = gap_fraction(rays, plant_canopy_analyser_rings(), ring_options);
+}
+
+EffectiveLai effective_lai(const CanopyStructure& structure, GapOf of) {
+  return {miller_lai(structure.gaps, of), plant_canopy_analyser_lai(structure.rings, of),
+          lai_from_57(structure.gaps, of)};
+}
+
+void add_notes(const Scene& scene, CanopyStructure& out) {
+  const SurfaceSums& surface = out.surface;
+  if (surface.leaves.empty())
+    out.notes.emplace_back("there are no leaves: leaf angles, G and the leaf area index are not defined");
+  const double below = surface.leaf_profile.below() + surface.other_profile.below();
+  const double all = surface.leaf_area_m2 + surface.stem_area_m2 + surface.other_area_m2;
+  constexpr double worth_a_word = 1e-3;
+  if (scene.ground && below > worth_a_word * all)
+    out.notes.push_back(
+        fmt::format("{:.2g} % of the surface lies below the ground, where no ray looks; it counts "
+                    "in the areas all the same",
+                    100 * below / all));
+  const auto blind =
+      std::find_if(out.gaps.begin(), out.gaps.end(), [](const Gap& g) { return g.plant.p <= 0; });
+  if (blind != out.gaps.end())
+    out.notes.push_back(
+        fmt::format("no ray found a gap at zenith {:g} degrees: clumping is not told there, and "
+                    "the integral over zenith goes on with the last angle that has gaps",
+                    blind->zenith_deg()));
 }
 
 }  // namespace
 
-CanopyStructure canopy_structure(const Scene& scene, const GapOptions& options) {
+std::vector<double> usual_zenith_angles_deg() {
+  std::vector<double> out = usual_gap_angles_deg();
+  out.push_back(90);
+  return out;
+}
+
+CanopyStructure canopy_structure(const Scene& scene, const StructureOptions& options) {
+  return canopy_structure(scene, GapScene(scene), options);
+}
+
+CanopyStructure canopy_structure(const Scene& scene, const GapScene& rays, const StructureOptions& options) {
   CanopyStructure out;
-  std::vector<double> area_factor(scene.prototypes.size(), 0), height_factor(scene.prototypes.size(), 0);
-  Box box;
-  std::vector<Box> own;
-  for (const Prototype& prototype : scene.prototypes) own.push_back(bounds(prototype));
-  for (const Instance& instance : scene.instances) {
-    area_factor[instance.prototype] += instance.scale * instance.scale;
-    height_factor[instance.prototype] = std::max(height_factor[instance.prototype], instance.scale);
-    box.include(bounds(own[instance.prototype], instance));
+  const Ground& level = rays.level();
+  out.periodic = scene.domain.periodic;
+  out.height_m = height_above(scene, level);
+  out.surface = surface_sums(
+      scene, level,
+      {.height_m = std::max(out.height_m, 1e-9), .layers = static_cast<std::size_t>(options.layers)});
+  out.tables = structure_tables(scene);
+  out.ground_area_m2 = rays.footprint().area_m2();
+  out.ground_is_domain = rays.footprint().is_domain();
+  if (out.ground_area_m2 > 0) {
+    out.lai = out.surface.leaf_area_m2 / out.ground_area_m2;
+    out.pai = out.surface.plant_area_m2() / out.ground_area_m2;
+    add_gaps(rays, options, out);
+    out.effective_plant = effective_lai(out, GapOf::plant);
+    out.effective_leaves = effective_lai(out, GapOf::leaves);
   }
-  std::vector<Mesh> discs;
-  discs.reserve(scene.prototypes.size());
-  std::vector<WeightedMesh> meshes;
-  std::map<std::string, double> solids;
-  for (std::size_t p = 0; p < scene.prototypes.size(); ++p) {
-    const Prototype& prototype = scene.prototypes[p];
-    if (area_factor[p] == 0) continue;
-    if (!prototype.discs.empty()) {
-      discs.push_back(disc_facets(prototype, scene.materials));
-      meshes.push_back({&discs.back(), area_factor[p], height_factor[p]});
-      for (const Mesh::Organ& organ : discs.back().organs)
-        out.material_area_m2[organ.material] += organ.area_m2 * area_factor[p];
-    }
-    for (const Shape& shape : prototype.shapes)
-      solids[scene.materials[shape.material]] += shape_area_m2(shape) * area_factor[p];
-    if (prototype.mesh) {
-      meshes.push_back({prototype.mesh.get(), area_factor[p], height_factor[p]});
-      for (std::size_t k = 0; k < prototype.mesh->organs.size(); ++k)
-        out.material_area_m2[scene.materials[prototype.material_of_organ[k]]] +=
-            prototype.mesh->organs[k].area_m2 * area_factor[p];
+  if (out.periodic) {
+    for (const Gap& gap : out.gaps) {
+      const double zenith = gap.direction.zenith;
+      Clumping row{gap.zenith_deg(), {}, {}};
+      if (out.lai > 0) row.leaves = clumping_index(gap.leaves, zenith, out.surface.leaf_g(zenith), out.lai);
+      if (out.pai > 0) row.plant = clumping_index(gap.plant, zenith, out.surface.plant_g(zenith), out.pai);
+      if (row.leaves || row.plant) out.clumping.push_back(row);
     }
   }
-  // The lowest point that gap fractions are looked at from, and the height above it.
-  Ground level = scene.ground.value_or(Ground{});
-  if (!scene.ground && !box.empty()) level.height_m = std::min(0.0, box.low.z());
-  double lowest = scene.ground ? level.height_m : 0;
-  if (level.terrain)
-    lowest = *std::min_element(level.terrain->heights_m.begin(), level.terrain->heights_m.end());
-  if (!box.empty()) out.height_m = box.high.z() - lowest;
-  out.facets = facet_structure(meshes, usual_zenith_angles_deg());
-  for (const auto& [material, area] : solids) {
-    out.facets.other_area_m2[material] += area;
-    out.material_area_m2[material] += area;
-  }
-  const Footprint footprint(scene);
-  out.ground_area_m2 = footprint.area_m2();
-  out.ground_is_domain = footprint.is_domain();
-  if (!(out.ground_area_m2 > 0)) return out;
-  out.lai = out.facets.total_leaf_area_m2 / out.ground_area_m2;
-  const Intersector intersector(scene);
-  out.gaps = gap_fraction(intersector, footprint, level, usual_gap_angles_deg(), options);
-  for (const Gap& gap : out.gaps) {
-    const double g = nearest_g(out.facets, gap.zenith_deg);
-    if (!scene.domain.periodic || !(gap.p > 0) || !(g * out.lai > 0)) continue;
-    const double scale = std::cos(radians(gap.zenith_deg)) / (g * out.lai);
-    out.clumping.push_back({gap.zenith_deg, -std::log(gap.p) * scale, gap.standard_error / gap.p * scale});
-  }
+  add_notes(scene, out);
   return out;
 }
 

@@ -90,17 +90,17 @@ class ShapeScene : public ::testing::Test {
 
 TEST_F(ShapeScene, CountsSurfacesThatAreNoLeaves) {
   const Scene scene = read("cylinder 0 0 0 0 0 1 0.1\nsphere 0 0 1.5 0.2 fruit\n", "material = \"bark\"\n");
-  const CanopyStructure structure = canopy_structure(scene, {1u << 10, 1});
+  const CanopyStructure structure = canopy_structure(scene, {.gaps = {.rays = 1u << 10}});
   const double stem = 2 * 4 * (2 * pi * 0.1 * 1 + 2 * pi * 0.01), fruit = 2 * 4 * 4 * pi * 0.04;
-  EXPECT_NEAR(structure.material_area_m2.at("bark"), stem, 1e-5);
-  EXPECT_NEAR(structure.facets.other_area_m2.at("fruit"), fruit, 1e-5);
+  EXPECT_NEAR(structure.surface.materials.at("bark").other_m2, stem, 1e-5);
+  EXPECT_NEAR(structure.surface.materials.at("fruit").other_m2, fruit, 1e-5);
   EXPECT_EQ(structure.lai, 0);
   EXPECT_NEAR(structure.height_m, 3.4, 1e-6);
   // The plan view's hull: two circles of 0.4 m, 10 m apart; of 24 points each, 1.2 % less in their halves.
   EXPECT_NEAR(structure.ground_area_m2, 8 + pi * 0.16, 0.015);
   // From below, circles and stems hide what they cover: the fruits' shadows.
-  EXPECT_NEAR(structure.gaps[0].p, 1 - 2 * pi * 0.16 / structure.ground_area_m2,
-              5 * structure.gaps[0].standard_error + 1e-3);
+  EXPECT_NEAR(structure.gaps[0].plant.p, 1 - 2 * pi * 0.16 / structure.ground_area_m2,
+              5 * structure.gaps[0].plant.standard_error + 1e-3);
 }
 
 TEST_F(ShapeScene, NeedsMaterialsThatAreThere) {

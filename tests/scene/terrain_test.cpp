@@ -214,8 +214,8 @@ TEST_F(TerrainScene, IsWhereGapsAreLookedForFrom) {
   scene.prototypes = {test::mesh_prototype(roof)};
   scene.prototypes[0].material_of_organ = {1};
   scene.instances.emplace_back();
-  const CanopyStructure structure = canopy_structure(scene, {1u << 13, 1});
-  EXPECT_NEAR(structure.gaps[0].p, 0.75, 5 * structure.gaps[0].standard_error + 1e-4);
+  const CanopyStructure structure = canopy_structure(scene, {.gaps = {.rays = 1u << 13}});
+  EXPECT_NEAR(structure.gaps[0].plant.p, 0.75, 5 * structure.gaps[0].plant.standard_error + 1e-4);
   EXPECT_NEAR(structure.lai, 0.25, 1e-9);
 }
 

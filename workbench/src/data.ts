@@ -4,6 +4,7 @@
 import { common, type Provenance } from "./data_common";
 import { flag, isObject, list, number, numbers, object, optional, raw, record, rows, text, type Infer } from "./schema";
 
+export * from "./data_describe";
 export * from "./data_simulate";
 export type { Provenance } from "./data_common";
 
@@ -133,26 +134,6 @@ export const build = object({
   files: list(text),
 });
 export type Build = Infer<typeof build>;
-
-export const describe = object({
-  ...common,
-  leaf_area_m2: number,
-  ground_area_m2: number,
-  lai: number,
-  height_m: number,
-  cover: number,
-  gap_fraction: rows(object({ zenith_deg: number, p: number, standard_error: number })),
-  g_function: rows(object({ zenith_deg: number, g: number })),
-  leaf_angle: object({
-    mean_deg: number,
-    bins: rows(object({ from_deg: number, to_deg: number, probability: number, density_per_deg: number })),
-  }),
-  materials: record(object({ area_m2: number })),
-  organs: rows(object({ id: text, label: text, material: text, length_m: number, area_m2: number })),
-  overlap: raw,
-  profile: raw,
-});
-export type Describe = Infer<typeof describe>;
 
 const anyReport = object(common);
 

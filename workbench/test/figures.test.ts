@@ -8,6 +8,7 @@ import { inPlane } from "../src/figures/organ_functions";
 import { panelGrid } from "../src/figures/panels";
 import { interpolate, isHemisphere, polarPoints } from "../src/figures/polar";
 import { decaySpec } from "../src/figures/scattering_orders";
+import { betaDensity, deWitG, ellipsoidalDensity, gOf } from "../src/figures/leaf_angle_models";
 import { quiver, quiverScale, vectors } from "../src/figures/quiver";
 import { planes, signedZenith } from "../src/figures/view_angles";
 import { organs } from "../src/organs";
@@ -181,4 +182,21 @@ test("layers are bars from the bottom up, a colour for each band", () => {
   const known = f as NonNullable<typeof f>;
   const { data } = parts(page, known, known.rows, "layer");
   expect(data.map((t) => [t.name, t.x, t.y])).toEqual([["red", [0.1, 0.5], ["0-1 m", "1-2 m"]], ["NIR", [0.05, 0.1], ["0-1 m", "1-2 m"]]]); // prettier-ignore
+});
+
+test("G of de Wit's distributions is that of the tables", () => {
+  const g = (name: string, deg: number): number => deWitG.find((d) => d.name === name)?.g((deg * Math.PI) / 180) ?? Number.NaN;
+  expect(g("planophile", 0)).toBeCloseTo(0.8488, 3);
+  expect(g("erectophile", 57.5)).toBeCloseTo(0.5041, 3);
+  expect(g("spherical", 40)).toBeCloseTo(0.5, 3);
+});
+
+test("fitted leaf angle densities integrate to one", () => {
+  const n = 20000;
+  for (const density of [betaDensity(2.77, 1.172), betaDensity(1.101, 1.93), ellipsoidalDensity(0.5), ellipsoidalDensity(1), ellipsoidalDensity(3)]) {
+    let sum = 0;
+    for (let i = 0; i < n; ++i) sum += (density(((i + 0.5) * Math.PI) / 2 / n) * Math.PI) / 2 / n;
+    expect(sum).toBeCloseTo(1, 4);
+  }
+  expect(gOf(ellipsoidalDensity(2), 0)).toBeCloseTo(0.7245, 3); // Campbell 1990
 });

@@ -27,7 +27,7 @@ test.each([
   ["reconstruct", ["reconstruct-photographs", "reconstruct-check", "reconstruct-curves"]],
   ["fit", ["fit-functions", "fit-midribs"]],
   ["build", ["build-scene"]],
-  ["describe", ["describe-angles", "describe-g", "describe-gap"]],
+  ["describe", ["angles", "azimuths", "g", "g-azimuth", "scattering", "gap", "gap-azimuth", "clumping", "fisheye", "profile"].map((f) => `describe-${f}`)],
   ["simulate", ["brf", "components", "orders", "origin", "fractions", "spectrum", "image-1"].map((f) => `simulate-${f}`)],
 ])("%s shows its figures", (kind, ids) => {
   const { book } = renderDocument(readDocument({ reports: sample.reports.filter((r) => r["report"] === kind) }));

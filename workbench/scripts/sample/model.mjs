@@ -38,20 +38,64 @@ export function describe() {
   const zeniths = [0, 10, 20, 30, 40, 50, 57.5, 65, 75, 85];
   const weights = range(5, 85, 9).map((t) => 0.55 * Math.sin(t * radians) + 0.45 * (1 - Math.cos(2 * t * radians)) + 0.12);
   const total = weights.reduce((a, b) => a + b, 0);
-  return {
-    report: "describe", leaf_area_m2: 8.36, ground_area_m2: 2.86, lai: 2.923, height_m: 0.612, cover: 0.781,
-    gap_fraction: zeniths.map((zenith_deg) => {
-      const p = Math.exp((-0.86 * g(zenith_deg) * 2.923) / Math.cos(zenith_deg * radians));
-      return { zenith_deg, p: round(p, 4), standard_error: round(Math.sqrt((p * (1 - p)) / 900), 3) };
+  const omega = (t) => 0.72 + 0.18 * Math.sin(t * radians);
+  const gap = (zenith_deg, clumped) => {
+    const leaves = Math.exp((-clumped * g(zenith_deg) * 2.923) / Math.cos(zenith_deg * radians));
+    const others = Math.exp(-0.02 - 0.08 * Math.tan(zenith_deg * radians));
+    const se = (p) => round(Math.sqrt((p * (1 - p)) / 900), 3);
+    const p = leaves * others;
+    return { zenith_deg, p: round(p, 4), standard_error: se(p), leaves: round(leaves, 4), leaves_standard_error: se(leaves), others: round(others, 4), others_standard_error: se(others), rays: 65536 };
+  };
+  const density = range(0, 19, 20).map((k) => 4.8 * Math.sin(((k + 0.5) / 20) ** 0.7 * Math.PI) ** 1.3 + 0.2);
+  const scale = 2.923 / (density.reduce((a, b) => a + b, 0) * 0.0306);
+  let above = 0;
+  const profile = density.map((d, k) => ({ from_m: round(0.0306 * k, 4), to_m: round(0.0306 * (k + 1), 4), leaf_area_density_per_m: round(d * scale, 4), plant_area_density_per_m: round(d * scale + 0.35, 4) }))
+    .reverse()
+    .map((l) => ({ ...l, cumulative_lai: round((above += l.leaf_area_density_per_m * 0.0306), 4), cumulative_pai: round(above + 0.35 * (0.612 - l.from_m), 4) }))
+    .reverse(); // prettier-ignore
+  const half = (azimuth) => range(0, 180, 19).map((view) => [view, azimuth]);
+  const directions = [...half(0), ...half(90), ...half(180)];
+  const scattering = (source) => ({
+    band: "850 nm", source_zenith_deg: source, g: round(g(source), 4), integral: round(0.9 * g(source), 4),
+    view_zenith_deg: directions.map((d) => d[0]), relative_azimuth_deg: directions.map((d) => d[1]),
+    gamma: directions.map(([view, azimuth]) => {
+      const cosine = -Math.cos(source * radians) * Math.cos(view * radians) - Math.sin(source * radians) * Math.sin(view * radians) * Math.cos(azimuth * radians);
+      const beta = Math.acos(Math.max(-1, Math.min(1, cosine)));
+      return round((0.9 / (3 * Math.PI)) * (Math.sin(beta) - beta * Math.cos(beta)) + (0.42 / 3) * Math.cos(beta), 4);
     }),
-    g_function: range(0, 90, 19).map((zenith_deg) => ({ zenith_deg, g: round(g(zenith_deg), 4) })),
+  }); // prettier-ignore
+  const size = 120;
+  const picture = (column, row) => {
+    const [x, y] = [(2 * column) / size - 1, 1 - (2 * row) / size];
+    const zenith = Math.min(1, Math.hypot(x, y));
+    const leaf = Math.sin(23 * x + 9 * y) + Math.sin(17 * y - 11 * x) + Math.sin(5 * x * y + 31 * zenith) > 1.1 - 2.6 * zenith;
+    return leaf ? [38, 92, 52] : [255, 255, 255];
+  };
+  return {
+    report: "describe", leaf_area_m2: 8.36, stem_area_m2: 0.742, other_area_m2: 0, ground_area_m2: 2.86, lai: 2.923, pai: 3.053, height_m: 0.612, cover: 0.781, cover_standard_error: 0.001,
+    gap_fraction: zeniths.map((z) => gap(z, omega(z))),
+    gap_by_azimuth: [30, 57.5].flatMap((z) => range(0, 330, 12).map((azimuth_deg) => ({ ...gap(z, omega(z) - 0.2 * Math.cos(2 * azimuth_deg * radians) * Math.sin(z * radians)), azimuth_deg, width_deg: 30, g: round(g(z), 4) }))),
+    azimuth_convention: "north_clockwise",
+    g_function: range(0, 90, 19).map((zenith_deg) => ({ zenith_deg, g: round(g(zenith_deg), 4), plant_g: round(g(zenith_deg) * 0.96 + 0.02 * Math.sin(zenith_deg * radians), 4) })),
+    g_by_azimuth: { zenith_deg: range(0, 90, 10), azimuth_deg: range(0, 345, 24), g: range(0, 90, 10).map((z) => range(0, 345, 24).map((a) => round(g(z) + 0.05 * Math.sin(z * radians) * Math.cos(2 * a * radians), 4))) },
     leaf_angle: {
-      mean_deg: 54.3,
+      mean_deg: 54.3, sd_deg: 21.6, mean_cos2: 0.41, ellipsoidal_chi: 1.11, beta: { mu: 1.28, nu: 1.94 },
       bins: weights.map((w, i) => ({ from_deg: 10 * i, to_deg: 10 * i + 10, probability: round(w / total, 4), density_per_deg: round(w / total / 10, 4) })),
     },
-    materials: { leaf: { area_m2: 8.36 }, stem: { area_m2: 0.742 }, soil: { area_m2: 2.86 } },
-    organs: leaves.map((leaf) => ({ id: `l${leaf.rank}`, label: `leaf ${leaf.rank}`, material: "leaf", length_m: leaf.length, area_m2: round(leaf.length * leaf.width * 0.74, 4) })),
-    overlap: null, profile: null,
+    leaf_azimuth: range(0, 350, 36).map((from_deg) => ({ from_deg, to_deg: from_deg + 10, probability: round((1 + 0.3 * Math.cos(2 * from_deg * radians)) / 36, 4), density_per_deg: round((1 + 0.3 * Math.cos(2 * from_deg * radians)) / 360, 5) })),
+    area_scattering: { optics: [{ band: "850 nm", material: "leaf", reflectance: 0.48, transmittance: 0.42 }], tables: [0, 30, 60].map(scattering) },
+    clumping: zeniths.map((z) => ({ zenith_deg: z, leaves: round(omega(z), 4), leaves_standard_error: 0.008, plant: round(omega(z) + 0.02, 4), plant_standard_error: 0.008 })),
+    effective_lai: {
+      plant: { miller: { value: 2.61, standard_error: 0.006, last_zenith_deg: 85 }, lai_2000: { value: 2.55, standard_error: 0.005 }, at_57_5: { value: 2.57, standard_error: 0.008 } },
+      leaves: { miller: { value: 2.46, standard_error: 0.006, last_zenith_deg: 85 }, lai_2000: { value: 2.41, standard_error: 0.005 }, at_57_5: { value: 2.44, standard_error: 0.008 } },
+    },
+    profile,
+    fisheye: { x_m: 0.12, y_m: -0.3, gap_share: 0.214, width: size, height: size, rings: [{ angle_deg: 30, radius: 0.3333 }, { angle_deg: 60, radius: 0.6667 }], data_uri: pngUri(size, size, picture) },
+    materials: { leaf: { area_m2: 8.36, leaf_area_m2: 8.36, other_area_m2: 0 }, stem: { area_m2: 0.742, leaf_area_m2: 0, other_area_m2: 0.742 } },
+    organs: leaves.map((leaf) => ({ id: `l${leaf.rank}`, label: `leaf ${leaf.rank}`, kind: "leaf", material: "leaf", length_m: leaf.length, area_m2: round(leaf.length * leaf.width * 0.74, 4), inclination_deg: round(40 + 4 * leaf.rank, 1), plant: "grass" })),
+    species: [{ species: "grass", count: 214, leaf_area_m2: 8.36, other_area_m2: 0.742, lai: 2.923, inclination_deg: 54.3, height_m: 0.612 }],
+    plants: range(0, 4, 5).map((k) => ({ plant: k, species: "grass", x_m: round(0.13 * k - 0.3, 3), y_m: round(0.21 * k - 0.4, 3), leaf_area_m2: round(0.039 + 0.001 * k, 4), other_area_m2: 0.0035, height_m: round(0.56 + 0.01 * k, 3) })),
+    plants_total: 214, notes: [], overlap: null,
   }; // prettier-ignore
 }
 

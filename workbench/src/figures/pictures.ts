@@ -6,7 +6,10 @@ import { h, imageSource, svg } from "../dom";
 
 const view = 1000; // units across
 
-function round(image: Picture, alt: string): SVGSVGElement {
+// What a hemispherical picture needs to be drawn in its circle.
+export type RoundPicture = Pick<Picture, "data_uri" | "rings">;
+
+export function roundPicture(image: RoundPicture, alt: string): SVGSVGElement {
   const middle = view / 2;
   const clip = "round-" + Math.random().toString(36).slice(2);
   const rings = image.rings.flatMap(({ angle_deg, radius }) => {
@@ -34,7 +37,7 @@ export function images(r: Simulate, s: Section): void {
     const small = (image.width ?? 1000) < 400;
     const picture =
       image.rings.length > 0
-        ? round(image, alt)
+        ? roundPicture(image, alt)
         : h("img", { src: imageSource(image.data_uri), alt, class: small ? "render small" : "render" });
     const caption = image.caption ?? `Image of the sensor ${image.sensor ?? ""}.`;
     const rings = image.rings.length > 0 ? ", with rings of the angle to its axis" : "";
