@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "plant/canopy.h"
-#include "plant/canopy/triangle_crossing.h"
+#include "plant/geometry/triangle_crossing.h"
 
 namespace bpms {
 

@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "plant/canopy/triangle_crossing.h"
+#include "plant/geometry/triangle_crossing.h"
 #include "plant/plant_mesh.h"
 #include "tests/plant/canopy_files.h"
 
