@@ -11,6 +11,7 @@
 #include "core/toml.h"
 #include "scene/importers/any_scene.h"
 #include "scene/structure/structure_report.h"
+#include "scene/structure/without_materials.h"
 #include "simulate/materials/leaf_optics.h"
 
 namespace bpms {
@@ -24,6 +25,7 @@ struct DescribeArguments {
   int fisheye = 0;
   std::string fisheye_at;
   MeshFileArguments mesh;
+  std::vector<std::string> without;  // materials
   bool rays_given = false;
 };
 
@@ -57,6 +59,7 @@ Scene read_structure(const DescribeArguments& options) {
   Scene scene = read_any_scene(options.file, traced_plants(), options.mesh);
   if (scene.instances.empty())
     bad_input({options.file}, "no plants and no [[instances]]: there is no structure to describe");
+  if (!options.without.empty()) return without_materials(std::move(scene), options.without);
   return scene;
 }
 
@@ -189,6 +192,7 @@ void add_describe(Cli& cli) {
       ->check(CLI::Range(16, 4096));
   verb->add_option("--fisheye-at", options->fisheye_at,
                    "where on the ground: X,Y in metres (default the middle)");
+  verb->add_option("--without", options->without, "materials whose surfaces are left out, as dead leaves");
   verb->add_option("--leaves", options->mesh.leaves, "groups or materials of a mesh file that are leaves")
       ->delimiter(',');
   verb->add_option("--unit", options->mesh.unit, "unit of a mesh file: m, cm, mm ... (default m)");

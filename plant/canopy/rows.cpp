@@ -158,10 +158,8 @@ InRow read_in_row(const TomlValue& planting, double total_length_m, PlantingFiel
   }
   const TomlValue key = spacing ? spacing : per_m ? per_m : density;
   field.plant_count(total_length_m * out.per_m.mean * out.hill.mean, key);
-  if (spacing || density) {  // whole places in all
-    const auto places = static_cast<double>(field.plant_count(total_length_m * out.per_m.mean, key));
-    out.per_m.mean = places / total_length_m;
-  }
+  const auto places = static_cast<double>(field.plant_count(total_length_m * out.per_m.mean, key));
+  if (!per_m) out.per_m.mean = places / total_length_m;  // whole places in all
   return out;
 }
 

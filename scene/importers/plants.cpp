@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/parallel.h"
+#include "plant/mesh_part.h"
 #include "plant/plant_file.h"
 #include "plant/plant_mesh.h"
 #include "plant/plant_solids.h"
@@ -19,36 +20,6 @@ struct PlantParts {
   std::vector<PlantSolid> solids;
 };
 
-// Without the triangles of the organs that the solids stand for; all organs keep their rows.
-std::shared_ptr<const Mesh> without_bodies(const Mesh& mesh) {
-  auto out = std::make_shared<Mesh>(mesh);
-  out->triangles.clear();
-  out->organ_of_triangle.clear();
-  std::vector<std::uint32_t> number(mesh.positions_m.size(), no_organ);
-  std::uint32_t used = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (mesh.organs[mesh.organ_of_triangle[t]].kind != organ_name(OrganKind::leaf)) continue;
-    std::array<std::uint32_t, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t vertex = mesh.triangles[t][k];
-      if (number[vertex] == no_organ) {
-        number[vertex] = used;
-        out->positions_m[used] = mesh.positions_m[vertex];
-        out->normals[used] = mesh.normals[vertex];
-        out->uv[used] = mesh.uv[vertex];
-        ++used;
-      }
-      corners[k] = number[vertex];
-    }
-    out->triangles.push_back(corners);
-    out->organ_of_triangle.push_back(mesh.organ_of_triangle[t]);
-  }
-  out->positions_m.resize(used);
-  out->normals.resize(used);
-  out->uv.resize(used);
-  return out;
-}
-
 PlantParts plant_parts(const Plant& plant, const MeshOptions& how) {
   PlantParts out{std::make_shared<const Mesh>(plant_mesh(plant, how)), {}};
   if (!how.bodies) out.solids = plant_solids(plant, how.tolerance_m);
@@ -61,7 +32,11 @@ PlantParts plant_parts(const CanopyPlant& plant, const MeshOptions& how) {
   if (!plant.mesh || how.tolerance_m != usual.tolerance_m || how.parameters)
     return plant_parts(*plant.plant, how);
   if (how.bodies) return {plant.mesh, {}};
-  return {without_bodies(*plant.mesh), plant_solids(*plant.plant, how.tolerance_m)};
+  const auto is_leaf = [&](std::uint32_t organ) {
+    return plant.mesh->organs[organ].kind == organ_name(OrganKind::leaf);
+  };
+  return {std::make_shared<const Mesh>(mesh_part(*plant.mesh, is_leaf)),
+          plant_solids(*plant.plant, how.tolerance_m)};
 }
 
 Shape shape_of_solid(const PlantSolid& solid, std::uint32_t material) {

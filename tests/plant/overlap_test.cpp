@@ -151,8 +151,8 @@ TEST_F(OverlapTest, AgreesWithAllPairsOfTriangles) {
                "{ a_twist 130 } + 3 { "
                "a_twist 250 } l { material leaf a_length 12 a_width 2 f_inclination n 0 40 1 100 }");
   for (const std::string boundary : {"open", "periodic"}) {
-    Canopy canopy = read("size_m = [0.25, 0.2]\nboundary = \"" + boundary + "\"",
-                         "pattern = \"random\"\ndensity_per_m2 = 80\n", "[overlap]\n",
+    Canopy canopy = read("size_m = [0.5, 0.4]\nboundary = \"" + boundary + "\"",
+                         "pattern = \"random\"\ndensity_per_m2 = 55\n", "[overlap]\n",
                          "[[plants]]\nfile = \"bush.bpms\"\nscale = { mean = 1, sd = 0.1 }\n");
     const Mesh& mesh = *canopy.plants[0].mesh;
     std::vector<std::vector<TriangleCorners>> world;
@@ -176,7 +176,7 @@ TEST_F(OverlapTest, AgreesWithAllPairsOfTriangles) {
           for (int x = -images; x <= images; ++x) {
             for (int y = -images; y <= images; ++y) {
               if (j == i && x == 0 && y == 0) continue;
-              const Eigen::Vector3d by(0.25 * x, 0.2 * y, 0);
+              const Eigen::Vector3d by(0.5 * x, 0.4 * y, 0);
               const double size = 0.1;  // none of the triangles is larger
               for (const TriangleCorners& unmoved : world[j]) {
                 if (crosses) break;

@@ -67,12 +67,12 @@ TEST(PlantBodies, HaveTheStructureOfTheirTriangles) {
   ASSERT_EQ(solids.gaps.size(), triangles.gaps.size());
   for (std::size_t k = 0; k < solids.gaps.size(); ++k) {
     const Gap &a = solids.gaps[k], &b = triangles.gaps[k];
-    const double covered_a = (1 - a.p) * solids.ground_area_m2,
-                 covered_b = (1 - b.p) * triangles.ground_area_m2;
-    const double error =
-        std::hypot(a.standard_error * solids.ground_area_m2, b.standard_error * triangles.ground_area_m2);
+    const double covered_a = (1 - a.plant.p) * solids.ground_area_m2,
+                 covered_b = (1 - b.plant.p) * triangles.ground_area_m2;
+    const double error = std::hypot(a.plant.standard_error * solids.ground_area_m2,
+                                    b.plant.standard_error * triangles.ground_area_m2);
     // Four standard errors of nineteen comparisons, and the facets' share.
-    EXPECT_NEAR(covered_a, covered_b, 4 * error + 2e-3 * covered_b) << a.zenith_deg;
+    EXPECT_NEAR(covered_a, covered_b, 4 * error + 2e-3 * covered_b) << a.zenith_deg();
   }
 }
 
