@@ -1,4 +1,4 @@
-// Pictures as PNG: 8-bit RGB out, numbers of one channel in.
+// Pictures as PNG: 8-bit RGB (with opacity, where there is any) out, numbers of one channel in.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace bpms {
 struct RgbImage {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;  // rows from the top, 3 bytes a pixel
+  std::vector<std::uint8_t> rgb;         // rows from the top, 3 bytes a pixel
+  std::vector<std::uint8_t> alpha = {};  // a byte a pixel; empty: opaque
 };
 std::string encode_png(const RgbImage& image);  // the file's bytes
 

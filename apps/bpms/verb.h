@@ -49,6 +49,8 @@ void deliver_report(const Cli& cli, const std::string& verb, Json report, const 
 
 // The page that holds these reports, self-contained (template built from workbench/).
 std::string html_page(const Json& document);
+// The page that shows a scene to turn and look into (scene/pictures/viewer_document.h).
+std::string viewer_page(const Json& document);
 
 // Before the work: each of these outputs can be written, and no two of them and --report are one file.
 void require_outputs(const Cli& cli, const std::vector<std::string>& outputs);

@@ -9,6 +9,7 @@ void add_reconstruct(Cli& cli);
 void add_fit(Cli& cli);
 void add_build(Cli& cli);
 void add_describe(Cli& cli);
+void add_view(Cli& cli);
 void add_simulate(Cli& cli);
 void add_recolour(Cli& cli);
 void add_report(Cli& cli);

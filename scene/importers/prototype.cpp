@@ -19,6 +19,7 @@ namespace {
 struct PrototypeTable {
   const TomlValue& table;
   std::string name;
+  const MeshOptions& meshes;
   TomlValue material, materials;
   std::string all() const { return material ? material.string() : ""; }
   SourceLocation where() const { return material ? material.where() : table.where(); }
@@ -59,6 +60,17 @@ Prototype from_plant(const PrototypeTable& of, const TomlValue& file, MaterialNa
   }
   if (!is_plant_file(path))
     file.reject(fmt::format("expected a plant file ({})", fmt::join(plant_file_extensions(), " ")));
+  MeshOptions how = of.meshes;
+  if (const TomlValue solids = of.table.get("solids")) {
+    if (!path.ends_with(".bpms")) solids.reject("for plants of the plant language alone (.bpms)");
+    how.bodies = solids.one_of({"shapes", "triangles"}) == "triangles";
+  }
+  if (path.ends_with(".bpms")) {
+    const Plant read = read_plant(path);
+    scene.inputs.insert(scene.inputs.end(), read.inputs.begin(), read.inputs.end());
+    scene.notes.insert(scene.notes.end(), read.warnings.begin(), read.warnings.end());
+    return plant_prototype(read, of.name, of.all(), of.renamed(), of.where(), names, how);
+  }
   PlantFile read = read_plant_file(path, options);
   scene.inputs.insert(scene.inputs.end(), read.inputs.begin(), read.inputs.end());
   scene.notes.insert(scene.notes.end(), read.notes.begin(), read.notes.end());
@@ -126,8 +138,8 @@ bool has_parts(const TomlValue& table) {
   return true;
 }
 
-Prototype read_prototype(const std::string& name, const TomlValue& table, MaterialNames& names,
-                         Scene& scene) {
+Prototype read_prototype(const std::string& name, const TomlValue& table, MaterialNames& names, Scene& scene,
+                         const MeshOptions& meshes) {
   for (const char* later : {"canopy", "librat", "volume"})
     if (const TomlValue value = table.get(later)) value.reject("prototypes of this kind are not built yet");
   const GeometryKind* chosen = nullptr;
@@ -139,7 +151,7 @@ Prototype read_prototype(const std::string& name, const TomlValue& table, Materi
   }
   if (given != 1)
     bad_input(table.where(), "[{}] needs one of discs, plant, mesh, shapes, patches, parts", table.name());
-  const PrototypeTable of{table, name, table.get("material"), table.get("materials")};
+  const PrototypeTable of{table, name, meshes, table.get("material"), table.get("materials")};
   Prototype out = chosen->read(of, table.get(chosen->key), names, scene);
   out.name = name;
   return out;

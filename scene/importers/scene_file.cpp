@@ -21,7 +21,8 @@ constexpr double farthest_m = 1e7;
 
 class SceneReader {
  public:
-  explicit SceneReader(const TomlValue& root) : root_(root), names_(scene_) {}
+  SceneReader(const TomlValue& root, const MeshOptions& meshes)
+      : root_(root), names_(scene_), meshes_(meshes) {}
 
   Scene read() {
     names_.define(root_.get("materials"));
@@ -49,7 +50,7 @@ class SceneReader {
     scene_.domain.size_m = planted.size_m;
     scene_.domain.periodic = planted.periodic;
     canopy_domain_ = scene_.domain;
-    add_canopy(planted, canopy.where(), names_, scene_);
+    add_canopy(planted, canopy.where(), names_, scene_, meshes_);
   }
 
   void read_ground_of_all() {
@@ -100,7 +101,7 @@ class SceneReader {
         assemblies_.push_back({name, {}});
         made_of_parts.push_back(table);
       } else {
-        scene_.prototypes.push_back(read_prototype(name, table, names_, scene_));
+        scene_.prototypes.push_back(read_prototype(name, table, names_, scene_, meshes_));
       }
     }
     used_.assign(scene_.prototypes.size() + assemblies_.size(), false);
@@ -164,12 +165,17 @@ class SceneReader {
   std::vector<std::string> own_names_;  // of the file's prototypes
   std::vector<Assembly> assemblies_;
   std::vector<bool> used_;
+  MeshOptions meshes_;
 };
 
 }  // namespace
 
 Scene read_scene_geometry(const TomlDocument& document) {
-  Scene scene = SceneReader(document.root()).read();
+  return read_scene_geometry(document, traced_plants());
+}
+
+Scene read_scene_geometry(const TomlDocument& document, const MeshOptions& meshes) {
+  Scene scene = SceneReader(document.root(), meshes).read();
   scene.inputs.insert(scene.inputs.begin(), document.path());
   return scene;
 }
