@@ -13,8 +13,9 @@ namespace bpms {
 
 struct PlantFileOptions {
   double tolerance_m = 1e-4;
-  bool lenient = false;    // of the plant language
-  MtgGeometryOptions mtg;  // its tolerance is the one above
+  bool lenient = false;         // of the plant language
+  bool topology_alone = false;  // an MTG whose columns make no surface is read too, without a mesh
+  MtgGeometryOptions mtg;       // its tolerance is the one above
   OpfOptions opf;
   std::optional<int> steps;  // of an L-system, instead of the file's
 };

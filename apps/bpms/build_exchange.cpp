@@ -52,7 +52,10 @@ void build_plant(const Cli& cli, const ExchangeBuild& build, const ExchangeArgum
   for (const std::string& output : build.outputs)
     for (const std::string& path : plant_file_paths(output)) files.push_back(path);
   require_outputs(cli, files);
-  const PlantFile plant = read_plant_file(build.input, plant_options(build, options));
+  PlantFileOptions reading = plant_options(build, options);
+  reading.topology_alone = std::all_of(build.outputs.begin(), build.outputs.end(),
+                                       [](const std::string& path) { return has_extension(path, {".mtg"}); });
+  const PlantFile plant = read_plant_file(build.input, reading);
   for (const std::string& text : plant.notes) note(text);
   for (const std::string& output : build.outputs)
     for (const MeshFile& file : plant_files(output, plant))

@@ -67,7 +67,9 @@ const std::vector<FileKind>& kinds() {
       {"plant of another program",
        [](const std::string& path, std::string_view) { return is_plant_file(path); },
        [](const std::string& path) {
-         const PlantFile plant = read_plant_file(path);
+         PlantFileOptions reading;
+         reading.topology_alone = true;
+         const PlantFile plant = read_plant_file(path, reading);
          for (const std::string& text : plant.notes) note(text);
          return fmt::format("{} organs, {} entities", plant.mesh.organs.size(), plant.mtg.vertices.size());
        }},

@@ -44,6 +44,11 @@ void read_bpms_plant(const std::string& path, const PlantFileOptions& options, P
 void read_mtg_plant(const std::string& path, const PlantFileOptions& options, PlantFile& out) {
   out.mtg = read_mtg(path);
   out.notes = out.mtg.notes;
+  const bool places = out.mtg.feature("XX") && out.mtg.feature("YY") && out.mtg.feature("ZZ");
+  if (options.topology_alone && !places && !out.mtg.feature("Length")) {
+    out.notes.push_back(path + ": no columns XX YY ZZ or Length: topology alone");
+    return;
+  }
   MtgGeometryOptions geometry = options.mtg;
   geometry.tolerance_m = options.tolerance_m;
   out.mesh = mtg_mesh(out.mtg, geometry, out.notes, &out.organ_of_vertex);

@@ -229,6 +229,19 @@ TEST(PlantFiles, EveryKindIsReadAndWritten) {
   BPMS_EXPECT_ERROR(read_plant_file("x.lsyz"), bad_input, "did you mean '.lsys'?");
 }
 
+TEST(PlantFiles, TopologyAloneIsReadWhereItIsAskedFor) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write(
+      "t.mtg",
+      "CODE:\tFORM-A\nCLASSES:\nSYMBOL\tSCALE\nP\t1\nDESCRIPTION:\nFEATURES:\nMTG:\nENTITY-CODE\n/P1\n");
+  BPMS_EXPECT_ERROR(read_plant_file(path), bad_input, "no geometry: expected columns XX YY ZZ, or Length");
+  PlantFileOptions reading;
+  reading.topology_alone = true;
+  const PlantFile plant = read_plant_file(path, reading);
+  EXPECT_EQ(plant.mtg.vertices.size(), 1u);
+  EXPECT_THAT(plant.notes, testing::ElementsAre(HasSubstr("topology alone")));
+}
+
 TEST(MeshFiles, PropertiesAreCarriedIntoGlbAndPly) {
   Mesh mesh = plant_mesh(read_plant(plants_folder + "grass.bpms"), {1e-3});
   mesh.organs[1].properties = {{"age_d", "12"}, {"cultivar", "line\nbreak"}};
