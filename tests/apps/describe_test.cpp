@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         option("ZenithBelowTheHorizon", "--zenith 0,95", "--zenith: '95'", {"a number from 0 to 89.9"}),
         option("ZenithOfWords", "--zenith 0,x", "--zenith: 'x'", {"number"}),
-        option("NoSectors", "--azimuths 0", "", {"--azimuths", "1 - 360"}),
+        option("NoSectors", "--azimuths 0", "", {"--azimuths", "1 to 360"}),
         option("NoLayers", "--layers 0", "", {"--layers"}),
         option("NoTarget", "--target-se 0", "", {"--target-se"}),
         option("LeavesThatShine", "--rho 0.7 --tau 0.5", "--rho and --tau of 'leaf' add to 1.2",
