@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -21,11 +22,19 @@
 namespace {
 
 using namespace bpms;
-using Clock = std::chrono::steady_clock;
+// Seconds since it was made, by the clock and of all threads together: a busy machine does not add to those.
+class Stopwatch {
+ public:
+  double wall() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
+  }
+  double processors() const { return static_cast<double>(std::clock() - clock_) / CLOCKS_PER_SEC; }
+  std::string text() const { return fmt::format("{:.2f} s (threads {:.2f} s)", wall(), processors()); }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t clock_ = std::clock();
+};
 
 // A line of /proc/self/status, in MiB.
 double status_mib(const std::string& key) {
@@ -78,44 +87,46 @@ class Folder {
 };
 
 struct StandTimes {
-  double read = 0, scene = 0, intersector = 0, gaps = 0;
+  double read = 0, scene = 0, intersector = 0, gaps = 0;  // of all threads together
 };
+
+std::vector<double> ten_angles_deg() {
+  std::vector<double> out;
+  for (int k = 0; k < 9; ++k) out.push_back(10.0 * k);
+  out.push_back(57.5);
+  return out;
+}
 
 StandTimes measure(const std::string& file) {
   StandTimes out;
   const double before = status_mib("VmRSS");
-  Clock::time_point start = Clock::now();
+  const Stopwatch reading;
   const Canopy canopy = read_canopy(file);
-  out.read = seconds_since(start);
-  const double read_mib = status_mib("VmRSS") - before;
-  start = Clock::now();
+  out.read = reading.processors();
+  fmt::print("{:9} plants, {} different: read {}, {:.0f} MiB, {} notes\n", canopy.placements.size(),
+             canopy.plants.size(), reading.text(), status_mib("VmRSS") - before, canopy.notes.size());
+  const Stopwatch making;
   Scene scene;
   MaterialNames names(scene);
   scene.domain = {canopy.size_m, canopy.periodic};
   add_canopy(canopy, {file}, names, scene);
-  out.scene = seconds_since(start);
-  const double scene_mib = status_mib("VmRSS") - before;
+  out.scene = making.processors();
   std::size_t triangles = 0;
   for (const Prototype& p : scene.prototypes) triangles += p.mesh->triangles.size();
-  start = Clock::now();
+  fmt::print("  scene {}, {} triangles, {:.0f} MiB\n", making.text(), triangles,
+             status_mib("VmRSS") - before);
+  const Stopwatch building;
   const Intersector intersector(scene);
-  out.intersector = seconds_since(start);
-  start = Clock::now();
-  std::vector<double> angles;
-  for (int k = 0; k < 9; ++k) angles.push_back(10.0 * k);
-  angles.push_back(57.5);
-  const std::vector<Gap> gaps =
-      gap_fraction(intersector, Footprint(scene), scene.ground.value_or(Ground{}), angles, {1u << 16, 1});
-  out.gaps = seconds_since(start);
+  out.intersector = building.processors();
+  fmt::print("  intersector {}, {:.0f} MiB\n", building.text(), status_mib("VmRSS") - before);
+  const Stopwatch tracing;
+  const std::vector<Gap> gaps = gap_fraction(intersector, Footprint(scene), scene.ground.value_or(Ground{}),
+                                             ten_angles_deg(), {1u << 16, 1});
+  out.gaps = tracing.processors();
   double worst = 0;
   for (const Gap& gap : gaps) worst = std::max(worst, gap.standard_error);
-  fmt::print("{:9} plants, {:6} different, {:9} triangles of their own, {} notes\n", canopy.placements.size(),
-             canopy.plants.size(), triangles, canopy.notes.size());
-  fmt::print(
-      "  read {:6.2f} s ({:.0f} MiB)  scene {:6.2f} s ({:.0f} MiB)  intersector {:6.2f} s  gaps {:6.2f} s "
-      "(P(0) {:.3f}, errors up to {:.4f})  {:.0f} MiB\n",
-      out.read, read_mib, out.scene, scene_mib, out.intersector, out.gaps, gaps[0].p, worst,
-      status_mib("VmRSS"));
+  fmt::print("  gap fraction at 10 angles {}, P(0) {:.3f}, standard errors up to {:.4f}\n", tracing.text(),
+             gaps[0].p, worst);
   std::fflush(stdout);
   return out;
 }
@@ -166,10 +177,10 @@ int main(int argc, char** argv) {
   for (int k = 0; k < 2; ++k) {
     const std::string file =
         stand(folder, "overlap.toml", (k + 1) * clones / 250 / 100, four, rows + "[overlap]\n");
-    const Clock::time_point start = Clock::now();
+    const Stopwatch reading;
     const Canopy canopy = read_canopy(file);
-    seconds[k] = seconds_since(start);
-    fmt::print("{:9} plants: {:.2f} s, {:.4f} of the leaf area\n", canopy.placements.size(), seconds[k],
+    seconds[k] = reading.processors();
+    fmt::print("{:9} plants: {}, {:.4f} of the leaf area\n", canopy.placements.size(), reading.text(),
                canopy.overlap->fraction);
   }
   fmt::print("  twice as many: x {:.2f}\n", seconds[1] / seconds[0]);

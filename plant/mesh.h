@@ -25,7 +25,9 @@ struct Mesh {
     using Named = std::vector<std::pair<std::string, std::string>>;
     Named properties = {};  // what the plant text carries along: {"age_d", "12"}
     Named parameters =
-        {};  // the attributes as written, {"a_length", "10 cm"}; only where they were asked for
+        {};                // the attributes as written, {"a_length", "10 cm"}; only where they were asked for
+    double volume_m3 = 0;  // of bodies; 0 for sheets
+    Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero();  // of the volume; of a sheet: of its area
   };
   std::vector<Organ> organs;
 };

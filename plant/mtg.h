@@ -89,7 +89,9 @@ struct MtgGeometryOptions {
 // from the entity before, TopDia and BotDia their diameters; entities with Length and angles (XEuler,
 // XInsertionAngle, YInsertionAngle in degrees) are laid out one after the other; leaves with Length and
 // Width become blades. Notes say what was assumed. bad_input when there is neither.
-Mesh mtg_mesh(const Mtg& mtg, const MtgGeometryOptions& options, std::vector<std::string>& notes);
+// `organ_of_vertex`: where asked for, each entity's organ, -1 for none.
+Mesh mtg_mesh(const Mtg& mtg, const MtgGeometryOptions& options, std::vector<std::string>& notes,
+              std::vector<std::int32_t>* organ_of_vertex = nullptr);
 
 // A plant at the scales P plant, A axis, then its organs B S L H by their ordinals; columns: XX YY ZZ (far
 // ends, cm), Length, Width, Radius (cm), TopDia BotDia (cm, stems), Area (cm2), Material, Label and what the

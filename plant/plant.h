@@ -37,6 +37,8 @@ struct OrganAttributes {
   std::unique_ptr<OrganFunction> f_inclination, f_azimuth, f_twist,
       f_curvature;                         // of l in [0,1], values in radians
   std::unique_ptr<OrganFunction> f_width;  // times width; absent = 1
+  std::string section;                     // how a leaf looks across (plant/geometry/sections); empty: an arc
+  double midrib_width = 0, midrib_height = 0;  // of the section raised_midrib, over the leaf's width
   OrganAttributes();
   OrganAttributes(const OrganAttributes&);
   OrganAttributes& operator=(const OrganAttributes&);

@@ -12,6 +12,9 @@ struct MeshOptions {
   // over its surface to 1e-4 at any tolerance that keeps the shape (the width absorbs what the chords lose).
   double tolerance_m = 1e-4;
   bool parameters = false;  // fill in Mesh::Organ::parameters
+  // False: leaves alone have triangles; bodies have their rows all the same, with their exact area, for those
+  // who take their solids (plant/plant_solids.h).
+  bool bodies = true;
 };
 Mesh plant_mesh(const Plant& plant, const MeshOptions& options = {});
 

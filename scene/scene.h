@@ -29,6 +29,8 @@ struct Disc {
   Eigen::Vector3f normal;  // unit; the upper (front) face looks this way
 };
 
+inline constexpr std::uint32_t no_organ = 0xffffffffu;
+
 // A thing that is placed many times. Materials are indices into Scene::materials.
 struct Prototype {
   std::string name;
@@ -38,6 +40,12 @@ struct Prototype {
   std::shared_ptr<const Mesh> mesh;              // or null
   std::vector<std::uint32_t> material_of_organ;  // of the mesh's organs
   std::vector<Shape> shapes;
+  // Of the mesh's organs: which one each shape is a part of. The organ's area then counts, and not the
+  // shape's, some of which lies inside of its neighbours. Empty: no shape is part of an organ.
+  std::vector<std::uint32_t> organ_of_shape;
+  std::uint32_t organ_of(std::size_t shape) const {
+    return organ_of_shape.empty() ? no_organ : organ_of_shape[shape];
+  }
 };
 
 inline constexpr std::uint32_t no_plant = 0xffffffffu;

@@ -15,6 +15,7 @@
 #include "core/text.h"
 #include "plant/canopy.h"
 #include "plant/plant.h"
+#include "plant/plant_file.h"
 #include "plant/plant_format.h"
 #include "plant/plant_library.h"
 #include "simulate/simulate.h"
@@ -63,6 +64,17 @@ const std::vector<FileKind>& kinds() {
        [](const std::string& path) { return fmt::format("{} vectors", read_vectors(path).size()); }},
       {"plant.bpms", [](const std::string& path, std::string_view) { return path.ends_with(".bpms"); },
        check_plant},
+      {"plant of another program",
+       [](const std::string& path, std::string_view) { return is_plant_file(path); },
+       [](const std::string& path) {
+         PlantFileOptions reading;
+         reading.topology_alone = true;
+         const PlantFile plant = read_plant_file(path, reading);
+         for (const std::string& text : plant.notes) note(text);
+         return fmt::format("{} organs, {} entities", plant.mesh.organs.size(), plant.mtg.vertices.size());
+       }},
+      {"stand.ops", [](const std::string& path, std::string_view) { return path.ends_with(".ops"); },
+       [](const std::string& path) { return fmt::format("{} plants", read_ops(path).rows.size()); }},
       {"canopy.toml",
        [](const std::string& path, std::string_view text) {
          return path.ends_with(".toml") && (text.find("[planting]") != std::string_view::npos ||

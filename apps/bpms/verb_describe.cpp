@@ -9,10 +9,9 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/toml.h"
-#include "core/units.h"
-#include "scene/importers/mesh_file.h"
-#include "scene/importers/plants.h"
+#include "scene/importers/any_scene.h"
 #include "scene/structure/structure_report.h"
+#include "scene/structure/without_materials.h"
 #include "simulate/materials/leaf_optics.h"
 
 namespace bpms {
@@ -25,8 +24,8 @@ struct DescribeArguments {
   std::string reflectance, transmittance, materials, incidence = "0,30,60";
   int fisheye = 0;
   std::string fisheye_at;
-  std::string unit, up;             // of mesh files
-  std::vector<std::string> leaves;  // materials or groups of a mesh file that are leaves
+  MeshFileArguments mesh;
+  std::vector<std::string> without;  // materials
   bool rays_given = false;
 };
 
@@ -56,54 +55,11 @@ std::vector<double> option_numbers(const std::string& option, const std::string&
   return out;
 }
 
-bool is_mesh_file(const std::string& path) {
-  std::string type = std::filesystem::path(path).extension().string();
-  std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-  return type == ".ply" || type == ".obj" || type == ".glb" || type == ".gltf";
-}
-
-// A mesh alone, in an open scene of its own. `leaves`: its groups or materials that are leaves, beside those
-// whose names say so.
-Scene mesh_scene(const DescribeArguments& options) {
-  Scene scene;
-  scene.domain.periodic = false;
-  const double unit = options.unit.empty() ? 1 : metres_per_unit(options.unit, {"--unit"});
-  const bool y_up = options.up.empty() ? mesh_file_is_y_up(options.file) : options.up == "y";
-  Mesh mesh = *read_mesh_file(options.file, unit, y_up);
-  for (const std::string& name : options.leaves) {
-    bool used = false;
-    for (Mesh::Organ& organ : mesh.organs) {
-      if (organ.material != name && organ.label != name) continue;
-      organ.kind = "leaf";
-      used = true;
-    }
-    if (!used) bad_input({options.file}, "no group and no material is called {} (--leaves)", in_quotes(name));
-  }
-  Prototype& prototype = scene.prototypes.emplace_back();
-  prototype.name = std::filesystem::path(options.file).stem().string();
-  MaterialNames names(scene);
-  for (const Mesh::Organ& organ : mesh.organs)
-    prototype.material_of_organ.push_back(
-        names.number(organ.material.empty() ? "unnamed" : organ.material, {options.file}));
-  prototype.mesh = std::make_shared<const Mesh>(std::move(mesh));
-  scene.instances.emplace_back();
-  scene.inputs.push_back(options.file);
-  return scene;
-}
-
-// A plant, a canopy, a scene or a mesh, told by name and content.
 Scene read_structure(const DescribeArguments& options) {
-  const std::string& path = options.file;
-  if (is_mesh_file(path)) return mesh_scene(options);
-  if (!options.leaves.empty() || !options.unit.empty() || !options.up.empty())
-    throw Error(ErrorKind::bad_input,
-                "--leaves, --unit and --up are for mesh files (.ply, .obj, .glb, .gltf)");
-  if (path.ends_with(".bpms")) return plant_scene(path);
-  const TomlDocument document = TomlDocument::read(path);
-  if (document.root().has("planting") || document.root().has("plants")) return canopy_scene(path);
-  Scene scene = read_scene_geometry(document);
+  Scene scene = read_any_scene(options.file, traced_plants(), options.mesh);
   if (scene.instances.empty())
-    bad_input({path}, "no plants and no [[instances]]: there is no structure to describe");
+    bad_input({options.file}, "no plants and no [[instances]]: there is no structure to describe");
+  if (!options.without.empty()) return without_materials(std::move(scene), options.without);
   return scene;
 }
 
@@ -236,10 +192,12 @@ void add_describe(Cli& cli) {
       ->check(CLI::Range(16, 4096));
   verb->add_option("--fisheye-at", options->fisheye_at,
                    "where on the ground: X,Y in metres (default the middle)");
-  verb->add_option("--leaves", options->leaves, "groups or materials of a mesh file that are leaves")
+  verb->add_option("--without", options->without, "materials whose surfaces are left out, as dead leaves");
+  verb->add_option("--leaves", options->mesh.leaves, "groups or materials of a mesh file that are leaves")
       ->delimiter(',');
-  verb->add_option("--unit", options->unit, "unit of a mesh file: m, cm, mm ... (default m)");
-  verb->add_option("--up", options->up, "axis that is up in a mesh file (default y for glTF, z for the rest)")
+  verb->add_option("--unit", options->mesh.unit, "unit of a mesh file: m, cm, mm ... (default m)");
+  verb->add_option("--up", options->mesh.up,
+                   "axis that is up in a mesh file (default y for glTF, z for the rest)")
       ->check(CLI::IsMember({"y", "z"}));
 }
 

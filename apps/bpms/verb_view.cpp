@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "scene/importers/any_scene.h"
 #include "scene/pictures/picture.h"
 #include "scene/pictures/subject.h"
 #include "scene/pictures/viewer_document.h"

@@ -35,7 +35,9 @@ double von_mises(double kappa, Philox& random) {
 
 CloneVariation::CloneVariation(const TomlValue& plant) {
   if (const TomlValue value = plant.get("scale")) {
+    constexpr double largest_scale = 1e6;
     scale_ = positive_mean_sd(value);
+    if (scale_.mean > largest_scale) value.reject("expected a factor up to 1e6");
     if (scale_.mean - most_sd * scale_.sd <= 0)
       value.reject(fmt::format("mean {} and sd {} reach zero within {} sd", scale_.mean, scale_.sd, most_sd));
   }

@@ -32,6 +32,7 @@ class PlantCrossings {
   // For each plant its own leaf area that crosses others; on all threads.
   std::vector<double> own_m2() const;
   double leaf_area_m2() const;
+  double largest_radius_m() const;  // of the sphere around a plant
 
  private:
   struct Impl;

@@ -44,7 +44,7 @@ Canopy parse_canopy(const std::string& path, std::string_view text, const Canopy
   canopy.notes.insert(canopy.notes.end(), field.notes.begin(), field.notes.end());
   canopy.inputs.insert(canopy.inputs.end(), field.inputs.begin(), field.inputs.end());
   place_plants(sites, field, standing, source.get(), planting, canopy);
-  handle_overlap(overlap, sites, field, standing, source.get(), canopy);
+  handle_overlap(root, overlap, sites, field, standing, source.get(), canopy);
   return canopy;
 }
 

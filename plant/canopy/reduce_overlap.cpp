@@ -23,6 +23,7 @@ class OverlapReducer {
         canopy_(canopy),
         crossings_(canopy) {}
 
+  double largest_radius_m() const { return crossings_.largest_radius_m(); }
   CanopyOverlap run() {
     CanopyOverlap out;
     const double leaf_m2 = crossings_.leaf_area_m2();
@@ -87,12 +88,19 @@ CanopyOverlapOptions read_overlap(const TomlValue& root) {
   return out;
 }
 
-void handle_overlap(const CanopyOverlapOptions& options, const std::vector<PlantingSite>& sites,
-                    PlantingField& field, const Standing& standing, const PlantSource* source,
-                    Canopy& canopy) {
+void handle_overlap(const TomlValue& root, const CanopyOverlapOptions& options,
+                    const std::vector<PlantingSite>& sites, PlantingField& field, const Standing& standing,
+                    const PlantSource* source, Canopy& canopy) {
   if (!options.report && !options.at_most) return;
   make_canopy_meshes(canopy);
-  const CanopyOverlap overlap = OverlapReducer(options, sites, field, standing, source, canopy).run();
+  OverlapReducer reducer(options, sites, field, standing, source, canopy);
+  constexpr double most_periods = 10;
+  if (canopy.periodic && reducer.largest_radius_m() > most_periods * canopy.size_m.minCoeff())
+    root.get("overlap").reject(fmt::format(
+        "a plant of {:.3g} m across would be met by too many images of itself in a periodic domain of "
+        "{:.6g} x {:.6g} m",
+        2 * reducer.largest_radius_m(), canopy.size_m.x(), canopy.size_m.y()));
+  const CanopyOverlap overlap = reducer.run();
   canopy.overlap = overlap;
   std::string note = fmt::format("overlap: {:.4g} of the leaf area is on triangles that cross other plants",
                                  overlap.fraction);

@@ -14,8 +14,8 @@ CanopyOverlapOptions read_overlap(const TomlValue& root);
 // Meets options: fills in Canopy::overlap, notes it, and where it is to be reduced gives plants that cross
 // others new rotations (the first half of the tries) and new places of the pattern with new rotations (the
 // second half), each kept when less leaf area then crosses. The same seed gives the same canopy.
-void handle_overlap(const CanopyOverlapOptions& options, const std::vector<PlantingSite>& sites,
-                    PlantingField& field, const Standing& standing, const PlantSource* source,
-                    Canopy& canopy);
+void handle_overlap(const TomlValue& root, const CanopyOverlapOptions& options,
+                    const std::vector<PlantingSite>& sites, PlantingField& field, const Standing& standing,
+                    const PlantSource* source, Canopy& canopy);
 
 }  // namespace bpms

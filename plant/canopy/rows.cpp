@@ -121,6 +121,7 @@ void read_hills(const TomlValue& planting, InRow& out) {
   constexpr double most = 1000;
   out.hill = positive_mean_sd(hill);
   if (out.hill.mean > most) hill.reject("expected up to 1000 plants");
+  if (out.hill.sd > out.hill.mean) hill.reject("expected an sd no larger than the mean");
   out.scatter.hill_radius_m = planting.require("hill_radius_m").positive();
 }
 
@@ -149,6 +150,7 @@ InRow read_in_row(const TomlValue& planting, double total_length_m, PlantingFiel
     out.per_m = {1 / between.mean, 0};
   } else if (per_m) {
     out.per_m = positive_mean_sd(per_m);
+    if (out.per_m.sd > out.per_m.mean) per_m.reject("expected an sd no larger than the mean");
     out.per_m.mean /= out.hill.mean, out.per_m.sd /= out.hill.mean;
   } else {
     field.wanted = density.positive() * field.area_m2();
@@ -156,10 +158,8 @@ InRow read_in_row(const TomlValue& planting, double total_length_m, PlantingFiel
   }
   const TomlValue key = spacing ? spacing : per_m ? per_m : density;
   field.plant_count(total_length_m * out.per_m.mean * out.hill.mean, key);
-  if (spacing || density) {  // whole places in all
-    const auto places = static_cast<double>(field.plant_count(total_length_m * out.per_m.mean, key));
-    out.per_m.mean = places / total_length_m;
-  }
+  const auto places = static_cast<double>(field.plant_count(total_length_m * out.per_m.mean, key));
+  if (!per_m) out.per_m.mean = places / total_length_m;  // whole places in all
   return out;
 }
 

@@ -21,6 +21,7 @@ class MtgShape {
   MtgShape(const Mtg& mtg, const MtgGeometryOptions& options) : mtg_(mtg), options_(options) {
     const std::size_t count = mtg.vertices.size();
     first_.assign(count, false);
+    organs_.assign(count, -1);
     std::vector<bool> met(count, false);
     for (std::size_t v = 0; v < count; ++v) {
       const std::int32_t complex = mtg.vertices[v].complex;
@@ -56,6 +57,8 @@ class MtgShape {
     return std::move(out_);
   }
 
+  std::vector<std::int32_t> organ_of_vertex() const { return organs_; }
+
  private:
   struct Chain {
     std::vector<AxisNode> nodes;
@@ -86,6 +89,7 @@ class MtgShape {
     for (const MtgValue& value : at(v).values)
       organ.properties.emplace_back(mtg_.features[value.feature].name, value.text);
     out_.organs.push_back(std::move(organ));
+    organs_[v] = static_cast<std::int32_t>(out_.organs.size() - 1);
     return static_cast<std::uint32_t>(out_.organs.size() - 1);
   }
 
@@ -260,6 +264,7 @@ class MtgShape {
   const Mtg& mtg_;
   const MtgGeometryOptions& options_;
   std::vector<bool> first_;  // component of its complex
+  std::vector<std::int32_t> organs_;
   std::vector<Chain> chains_;
   Mesh out_;
   std::size_t no_diameter_ = 0, no_angle_ = 0, alone_ = 0;
@@ -267,8 +272,12 @@ class MtgShape {
 
 }  // namespace
 
-Mesh mtg_mesh(const Mtg& mtg, const MtgGeometryOptions& options, std::vector<std::string>& notes) {
-  return MtgShape(mtg, options).mesh(notes);
+Mesh mtg_mesh(const Mtg& mtg, const MtgGeometryOptions& options, std::vector<std::string>& notes,
+              std::vector<std::int32_t>* organ_of_vertex) {
+  MtgShape shape(mtg, options);
+  Mesh out = shape.mesh(notes);
+  if (organ_of_vertex != nullptr) *organ_of_vertex = shape.organ_of_vertex();
+  return out;
 }
 
 }  // namespace bpms

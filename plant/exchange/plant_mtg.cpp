@@ -40,16 +40,21 @@ class PlantGraph {
   Mtg graph() {
     add('/', "P", 1, -1);
     placed_ = place_organs(plant_);
-    std::size_t next = 0;
+    walk(plant_, -1);
+    return std::move(out_);
+  }
+
+ private:
+  // A word whose organs start on `before` (-1: the ground), in an axis of their own; compound organs as words
+  // of theirs. Organs come in the order in which they were placed.
+  void walk(const OrganWord& organs, std::int32_t before) {
     struct Open {
       std::int32_t before;
       bool branch;
     };
     std::vector<Open> stack;
-    std::int32_t before = -1;  // the stem or bud that what comes next is on
-    bool branch = true;        // what follows next begins an axis
-    for (std::size_t i = 0; i < plant_.word.size(); ++i) {
-      const Symbol& symbol = plant_.word[i];
+    bool branch = true;  // what follows next begins an axis
+    for (const Symbol& symbol : organs.word) {
       if (symbol.type == Symbol::Type::open) {
         stack.push_back({before, branch});
         branch = true;
@@ -57,22 +62,22 @@ class PlantGraph {
         before = stack.back().before;
         branch = stack.back().branch;
         stack.pop_back();
-      } else if (next < placed_.size() && placed_[next].symbol == static_cast<int>(i)) {
-        add_organ(placed_[next], before, branch);
-        ++next;
+      } else if (symbol.kind == OrganKind::compound) {
+        const int compound =
+            symbol.block >= 0 ? organs.blocks[static_cast<std::size_t>(symbol.block)].compound : -1;
+        if (compound >= 0) walk(plant_.compounds[static_cast<std::size_t>(compound)], before);
+      } else if (symbol.kind != OrganKind::rotation) {
+        add_organ(placed_.at(next_++), symbol.ordinal, before, branch);
       }
     }
-    return std::move(out_);
   }
 
- private:
   std::int32_t add(char edge, const std::string& symbol, int index, std::int32_t cursor) {
     return builder_.add(edge, out_.class_number(symbol, 3), index, cursor, {out_.file}, symbol);
   }
 
-  void add_organ(const PlacedOrgan& organ, std::int32_t& before, bool& branch) {
+  void add_organ(const PlacedOrgan& organ, int ordinal, std::int32_t& before, bool& branch) {
     std::string symbol(1, static_cast<char>(std::toupper(static_cast<unsigned char>(letter(organ.kind)))));
-    const int ordinal = plant_.word[static_cast<std::size_t>(organ.symbol)].ordinal;
     const bool carries = organ.kind == OrganKind::stem || organ.kind == OrganKind::bud;
     std::int32_t vertex = 0;
     if (before < 0) {
@@ -116,7 +121,8 @@ class PlantGraph {
     const Mesh::Organ& row = mesh_.organs[found->second];
     set(v, "Area", mtg_number(per_metre * per_metre * row.area_m2));
     set(v, "Material", mtg_word(row.material));
-    for (const auto& [name, value] : row.properties) set(v, name, mtg_word(value));
+    for (const auto& property : organ.properties.empty() ? row.properties : organ.properties)
+      set(v, property.first, mtg_word(property.second));
   }
 
   void set(std::size_t v, const std::string& name, std::string value) {
@@ -129,6 +135,7 @@ class PlantGraph {
   MtgBuilder builder_{out_};
   std::unordered_map<int, std::size_t> organ_of_id_;
   std::vector<PlacedOrgan> placed_;
+  std::size_t next_ = 0;
   std::int32_t first_axis_ = -1;
   int axes_ = 0;
 };

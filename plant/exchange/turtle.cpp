@@ -26,9 +26,9 @@ struct TurtleChain {
   bool from_another = false;
 };
 
-class Turtle {
+class StringTurtle {
  public:
-  Turtle(const LString& string, double tolerance_m)
+  StringTurtle(const LString& string, double tolerance_m)
       : string_(string),
         tolerance_m_(tolerance_m),
         metres_(metres_per_unit(string.settings.unit, {})),
@@ -252,7 +252,7 @@ class Turtle {
 }  // namespace
 
 TurtlePlant turtle(const LString& string, double tolerance_m) {
-  return Turtle(string, tolerance_m).draw();
+  return StringTurtle(string, tolerance_m).draw();
 }
 
 }  // namespace bpms

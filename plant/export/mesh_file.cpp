@@ -80,10 +80,12 @@ std::vector<MeshOfOrgan> split_by_organ(const Mesh& mesh) {
 }
 
 Eigen::Vector3f viewer_colour(const std::string& material) {
-  if (material.find("leaf") != std::string::npos) return {0.13f, 0.36f, 0.08f};
-  if (material.find("stem") != std::string::npos) return {0.30f, 0.42f, 0.14f};
-  if (material.find("head") != std::string::npos) return {0.60f, 0.47f, 0.18f};
-  if (material.find("bark") != std::string::npos) return {0.25f, 0.17f, 0.11f};
+  const auto named = [&](std::string_view word) { return material.find(word) != std::string::npos; };
+  if (named("dead") || named("senescent")) return {0.48f, 0.31f, 0.10f};
+  if (named("leaf")) return {0.13f, 0.36f, 0.08f};
+  if (named("stem")) return {0.30f, 0.42f, 0.14f};
+  if (named("head")) return {0.60f, 0.47f, 0.18f};
+  if (named("bark")) return {0.25f, 0.17f, 0.11f};
   return {0.40f, 0.40f, 0.35f};
 }
 

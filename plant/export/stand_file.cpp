@@ -1,6 +1,7 @@
 #include "plant/stand_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/nearest.h"
@@ -58,7 +59,8 @@ StandMaterials::StandMaterials(const Stand& stand) {
 Stand canopy_stand(const Canopy& canopy, double tolerance_m) {
   Stand out;
   for (const CanopyPlant& plant : canopy.plants) {
-    out.meshes.push_back(std::make_shared<const Mesh>(plant_mesh(*plant.plant, {tolerance_m})));
+    out.meshes.push_back(plant.mesh ? plant.mesh
+                                    : std::make_shared<const Mesh>(plant_mesh(*plant.plant, {tolerance_m})));
     out.names.push_back(std::filesystem::path(plant.file).stem().string());
     out.files.push_back(plant.file);
   }
@@ -71,6 +73,8 @@ Stand canopy_stand(const Canopy& canopy, double tolerance_m) {
     row.position_m = p.position_m;
     row.scale = p.scale;
     row.twist = p.rotation;
+    row.lean = std::acos(std::clamp(static_cast<double>(p.up.z()), -1.0, 1.0));
+    row.lean_azimuth = row.lean > 0 ? std::atan2(p.up.y(), p.up.x()) : 0;
     row.group = out.names[p.plant];
     out.items.push_back({p.plant, row.world_from_plant()});
     out.places.rows.push_back(std::move(row));

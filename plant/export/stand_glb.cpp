@@ -29,10 +29,10 @@ class StandGlb {
  public:
   explicit StandGlb(const Stand& stand) : stand_(stand), materials_(stand) {}
 
-  std::string bytes(std::size_t most_nodes) {
+  std::string bytes(std::size_t node_limit) {
     for (std::size_t p = 0; p < stand_.meshes.size(); ++p) add_mesh(p);
     Json document{{"asset", {{"version", "2.0"}, {"generator", "bpms " + version()}}}, {"scene", 0}};
-    if (stand_.items.size() > most_nodes) {
+    if (stand_.items.size() > node_limit) {
       add_instances();
       for (const char* key : {"extensionsUsed", "extensionsRequired"})
         document[key] = Json::array({"EXT_mesh_gpu_instancing"});

@@ -59,11 +59,14 @@ void write_stand_ply(const std::string& path, const Stand& stand, const StandFil
   out.buffer() += ply_stand_header(stand, materials, vertices, faces);
   for (const StandItem& item : stand.items) {
     const Mesh& mesh = *stand.meshes[item.mesh];
-    const Eigen::Affine3f place = item.world_from_plant.cast<float>();
+    const Eigen::Matrix3f turn_and_scale = item.world_from_plant.linear().cast<float>();
+    const Eigen::Vector3f moved = item.world_from_plant.translation().cast<float>();
     const Eigen::Matrix3f turn = item.world_from_plant.rotation().cast<float>();
     for (std::size_t v = 0; v < mesh.positions_m.size(); ++v) {
       Eigen::Matrix<float, 8, 1> row;
-      row << place * mesh.positions_m[v], turn * mesh.normals[v], mesh.uv[v];
+      row.head<3>() = turn_and_scale * mesh.positions_m[v] + moved;
+      row.segment<3>(3) = turn * mesh.normals[v];
+      row.tail<2>() = mesh.uv[v];
       out.append(row.data(), 8);
     }
   }

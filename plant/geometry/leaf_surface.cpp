@@ -5,122 +5,134 @@
 #include <cmath>
 
 #include "plant/geometry/frame_rate.h"
-#include "plant/geometry/gauss_legendre.h"
 #include "plant/leaf_frame.h"
-#include "plant/plant_mesh.h"
 
 namespace bpms {
 namespace {
 
-constexpr double small = 1e-4;  // below it the series are exact to double precision
+// In the row's frame.
+Eigen::Vector3d own_derivative_m(const LeafRow& row, const SectionPoint& point) {
+  const Eigen::Vector2d section = row.width_m * point.at;
+  const Eigen::Vector2d by_l =
+      row.width_rate_m * point.at + row.width_m * row.half_angle_rate * point.by_half_angle;
+  return Eigen::Vector3d(by_l.x(), by_l.y(), row.length_m) +
+         row.rate.cross(Eigen::Vector3d(section.x(), section.y(), 0));
+}
 
-// sin(x) / x and (1 - cos x) / x with their derivatives.
-double sinc(double x) {
-  return std::abs(x) < small ? 1 - x * x / 6 : std::sin(x) / x;
-}
-double sinc_rate(double x) {
-  return std::abs(x) < small ? -x / 3 : (x * std::cos(x) - std::sin(x)) / (x * x);
-}
-double cosc(double x) {
-  return std::abs(x) < small ? x / 2 : 2 * std::pow(std::sin(x / 2), 2) / x;
-}
-double cosc_rate(double x) {
-  return std::abs(x) < small ? 0.5 - x * x / 8
-                             : (x * std::sin(x) - 2 * std::pow(std::sin(x / 2), 2)) / (x * x);
+Eigen::Vector3d in_space(const Eigen::Vector2d& v) {
+  return {v.x(), v.y(), 0};
 }
 
 }  // namespace
 
-Eigen::Vector3d frame_rate(const OrganAttributes& organ, double l) {
-  const auto value = [l](const std::unique_ptr<OrganFunction>& f) { return f ? f->value(l) : 0.0; };
-  const auto rate = [l](const std::unique_ptr<OrganFunction>& f) { return f ? f->derivative(l) : 0.0; };
-  const double azimuth = value(organ.f_azimuth);
-  const double twist = value(organ.f_twist);
-  const Eigen::Matrix3d from_azimuth = organ_rotation(0, azimuth, 0).transpose();
-  const Eigen::Matrix3d from_twist = organ_rotation(0, 0, twist).transpose();
-  return from_twist * (from_azimuth * Eigen::Vector3d(0, rate(organ.f_inclination), 0) +
-                       Eigen::Vector3d(rate(organ.f_azimuth), 0, 0)) +
-         Eigen::Vector3d(0, 0, rate(organ.f_twist));
+LeafRow leaf_row(const OrganAttributes& leaf, const LeafSection& section, double l,
+                 const Eigen::Vector3d& midrib_m) {
+  LeafRow row;
+  row.l = l;
+  row.midrib_m = midrib_m;
+  const MovingFrame moving = moving_frame(leaf, l);
+  row.frame = moving.frame;
+  row.rate = moving.rate;
+  row.length_m = leaf.length_m;
+  const double fraction = leaf.f_width ? leaf.f_width->value(l) : 1.0;
+  row.width_m = leaf.width_m * std::max(0.0, fraction);
+  row.width_rate_m = fraction > 0 && leaf.f_width ? leaf.width_m * leaf.f_width->derivative(l) : 0.0;
+  row.form = section_form(leaf, 0);
+  if (leaf.f_curvature) {
+    row.form.half_angle = leaf.f_curvature->value(l);
+    row.half_angle_rate = leaf.f_curvature->derivative(l);
+  }
+  row.section = &section;
+  return row;
 }
 
 std::vector<LeafRow> leaf_rows(const OrganAttributes& leaf, const std::vector<double>& l) {
   std::vector<LeafRow> out;
   out.reserve(l.size());
-  for (const MidribPoint& point : midrib(leaf, l)) {
-    LeafRow row;
-    row.l = point.l;
-    row.midrib_m = point.x_m;
-    row.frame = point.frame;
-    row.rate = frame_rate(leaf, point.l);
-    row.length_m = leaf.length_m;
-    const double fraction = leaf.f_width ? leaf.f_width->value(point.l) : 1.0;
-    row.width_m = leaf.width_m * std::max(0.0, fraction);
-    row.width_rate_m = fraction > 0 && leaf.f_width ? leaf.width_m * leaf.f_width->derivative(point.l) : 0.0;
-    if (leaf.f_curvature) {
-      row.half_angle = leaf.f_curvature->value(point.l);
-      row.half_angle_rate = leaf.f_curvature->derivative(point.l);
-    }
-    out.push_back(row);
+  const LeafSection& section = leaf_section(leaf.section);
+  Eigen::Vector3d midrib_m = Eigen::Vector3d::Zero();
+  double from = 0;
+  const auto advance = [&](double to) {
+    if (to == from) return;
+    midrib_m += leaf.length_m * midrib_step(leaf, from, to);
+    from = to;
+  };
+  const std::vector<double> breaks = organ_breaks(leaf);
+  auto next_break = breaks.begin();
+  for (const double to : l) {
+    for (; next_break != breaks.end() && *next_break < to; ++next_break)
+      if (*next_break > from) advance(*next_break);
+    advance(to);
+    out.push_back(leaf_row(leaf, section, to, midrib_m));
   }
   return out;
 }
 
+int panel_at(const LeafRow& row, double s) {
+  const std::vector<double> folds = row.section->folds(row.form);
+  return static_cast<int>(std::upper_bound(folds.begin(), folds.end(), s) - folds.begin());
+}
+
+std::vector<double> panel_ends(const OrganAttributes& leaf) {
+  std::vector<double> out = leaf_section(leaf.section).folds(section_form(leaf, 0));
+  out.insert(out.begin(), -1);
+  out.push_back(1);
+  return out;
+}
+
 Eigen::Vector3d leaf_section_m(const LeafRow& row, double s) {
-  const double angle = row.half_angle * s;
-  const double v = row.width_m / 2 * s;
-  return {-v * cosc(angle), v * sinc(angle), 0};
+  return row.width_m * in_space(row.section->point(row.form, panel_at(row, s), s).at);
 }
 
+Eigen::Vector3d leaf_point_m(const LeafRow& row, int panel, double s) {
+  return row.midrib_m + row.frame * (row.width_m * in_space(row.section->point(row.form, panel, s).at));
+}
 Eigen::Vector3d leaf_point_m(const LeafRow& row, double s) {
-  return row.midrib_m + row.frame * leaf_section_m(row, s);
+  return leaf_point_m(row, panel_at(row, s), s);
 }
 
-Eigen::Vector3d leaf_derivative_m(const LeafRow& row, double s) {
-  const double angle = row.half_angle * s;
-  const double angle_rate = row.half_angle_rate * s;
-  const double v = row.width_m / 2 * s;
-  const double v_rate = row.width_rate_m / 2 * s;
-  const Eigen::Vector3d section = leaf_section_m(row, s);
-  const Eigen::Vector3d section_rate(-v_rate * cosc(angle) - v * cosc_rate(angle) * angle_rate,
-                                     v_rate * sinc(angle) + v * sinc_rate(angle) * angle_rate, 0);
-  return row.frame * (Eigen::Vector3d(0, 0, row.length_m) + row.rate.cross(section) + section_rate);
+Eigen::Vector3d leaf_derivative_m(const LeafRow& row, int panel, double s) {
+  return row.frame * own_derivative_m(row, row.section->point(row.form, panel, s));
 }
 
-Eigen::Vector3d leaf_across(const LeafRow& row, double s) {
-  const double angle = row.half_angle * s;
-  return row.frame * Eigen::Vector3d(-std::sin(angle), std::cos(angle), 0);
+Eigen::Vector3d leaf_across(const LeafRow& row, int panel, double s) {
+  return row.frame * in_space(row.section->point(row.form, panel, s).across);
 }
 
+Eigen::Vector3d leaf_normal(const LeafRow& row, int panel, double s) {
+  const SectionPoint point = row.section->point(row.form, panel, s);
+  const Eigen::Vector3d across = in_space(point.across);
+  Eigen::Vector3d normal = own_derivative_m(row, point).cross(across);
+  const double norm = normal.norm();
+  normal = norm > 1e-9 * row.length_m ? Eigen::Vector3d(normal / norm)
+                                      : Eigen::Vector3d(Eigen::Vector3d::UnitZ().cross(across));
+  return row.frame * normal;
+}
 Eigen::Vector3d leaf_normal(const LeafRow& row, double s) {
-  const Eigen::Vector3d normal = leaf_derivative_m(row, s).cross(leaf_across(row, s));
-  if (normal.norm() > 1e-9 * row.length_m) return normal.normalized();
-  return row.frame.col(2).cross(leaf_across(row, s));
+  return leaf_normal(row, panel_at(row, s), s);
 }
 
-double leaf_surface_area_m2(const OrganAttributes& leaf) {
-  constexpr int panels = 16;  // between two kinks
-  std::vector<double> ends{0};
-  for (const double l : organ_breaks(leaf)) ends.push_back(l);
-  ends.push_back(1);
-  double area = 0;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    std::vector<double> l, weights;
-    const double panel = (ends[i + 1] - ends[i]) / panels;
-    for (int p = 0; p < panels; ++p) {
-      for (const GaussNode& node : gauss_legendre_8) {
-        l.push_back(ends[i] + panel * (p + (1 + node.x) / 2));
-        weights.push_back(panel / 2 * node.weight);
+std::vector<double> width_zeros(const OrganAttributes& leaf, std::span<const double> between) {
+  std::vector<double> out;
+  if (!leaf.f_width) return out;
+  constexpr int looks = 4, halvings = 50;
+  double from = 0, at_from = leaf.f_width->value(0);
+  for (std::size_t i = 0; i + 1 < between.size(); ++i) {
+    for (int k = 1; k <= looks; ++k) {
+      const double to = between[i] + (between[i + 1] - between[i]) * k / looks;
+      const double at_to = leaf.f_width->value(to);
+      if (at_from * at_to < 0) {
+        double low = from, high = to;
+        for (int h = 0; h < halvings; ++h) {
+          const double middle = (low + high) / 2;
+          (leaf.f_width->value(middle) * at_from > 0 ? low : high) = middle;
+        }
+        out.push_back((low + high) / 2);
       }
-    }
-    const std::vector<LeafRow> rows = leaf_rows(leaf, l);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      for (const GaussNode& node : gauss_legendre_8) {
-        const double element = leaf_derivative_m(rows[k], node.x).cross(leaf_across(rows[k], node.x)).norm();
-        area += weights[k] * node.weight * element * rows[k].width_m / 2;
-      }
+      from = to, at_from = at_to;
     }
   }
-  return area;
+  return out;
 }
 
 }  // namespace bpms

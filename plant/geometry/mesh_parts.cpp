@@ -10,6 +10,13 @@ std::uint32_t OrganMesh::add(const Eigen::Vector3d& position_m, const Eigen::Vec
   return static_cast<std::uint32_t>(positions_m.size() - 1);
 }
 
+void OrganMesh::reserve(std::size_t vertices, std::size_t faces) {
+  positions_m.reserve(vertices);
+  normals.reserve(vertices);
+  uv.reserve(vertices);
+  triangles.reserve(faces);
+}
+
 double OrganMesh::area_m2() const {
   double sum = 0;
   for (const auto& [a, b, c] : triangles)
@@ -29,8 +36,8 @@ void join_rows(OrganMesh& mesh, const VertexRow& row, const VertexRow& next) {
       mesh.triangles.push_back({a, c, d});
     } else if (c == d) {
       mesh.triangles.push_back({a, c, b});
-    } else if ((mesh.positions_m[a] - mesh.positions_m[d]).norm() <
-               (mesh.positions_m[b] - mesh.positions_m[c]).norm()) {
+    } else if ((mesh.positions_m[a] - mesh.positions_m[d]).squaredNorm() <
+               (mesh.positions_m[b] - mesh.positions_m[c]).squaredNorm()) {
       mesh.triangles.push_back({a, c, d});
       mesh.triangles.push_back({a, d, b});
     } else {

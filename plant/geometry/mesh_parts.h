@@ -14,6 +14,7 @@ struct OrganMesh {
   std::vector<Eigen::Vector2d> uv;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::uint32_t add(const Eigen::Vector3d& position_m, const Eigen::Vector3d& normal, double u, double v);
+  void reserve(std::size_t vertices, std::size_t faces);
   double area_m2() const;
 };
 

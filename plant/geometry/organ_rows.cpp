@@ -1,5 +1,6 @@
 #include "plant/geometry/organ_rows.h"
 
+#include "plant/geometry/swept_body.h"
 #include "plant/language/attributes.h"
 #include "plant/leaf_frame.h"
 
@@ -40,8 +41,7 @@ void split_senescent(Mesh& mesh, std::size_t first_triangle, const OrganAttribut
 }
 
 void add_joint(OrganMesh& stem_mesh, const OrganAttributes& stem, double tolerance_m) {
-  const double width = stem.f_width ? std::max(0.0, stem.f_width->value(1)) : 1.0;
-  const double radius_m = stem.joint * width * stem.radius_m;
+  const double radius_m = joint_radius_m(stem);
   if (radius_m <= 0) return;
   OrganAttributes ball;
   ball.radius_m = radius_m;

@@ -42,6 +42,16 @@ std::vector<double> first_nodes(const OrganAttributes& organ, double least_gap) 
   return out;
 }
 
+std::vector<double> with_quarters(const std::vector<double>& nodes) {
+  constexpr int inner = 4;
+  std::vector<double> out;
+  out.reserve(inner * nodes.size());
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+    for (int k = 0; k < inner; ++k) out.push_back(nodes[i] + (nodes[i + 1] - nodes[i]) * k / inner);
+  out.push_back(nodes.back());
+  return out;
+}
+
 double distance_from_line(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d along = b - a;
   const double length = along.norm();

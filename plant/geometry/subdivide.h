@@ -1,7 +1,9 @@
 // Where to put the rows of a strip or a tube: intervals are halved until none deviates more than the
-// tolerance.
+// tolerance. Each interval is looked at in its ends and quarter points, and what was computed there serves
+// its halves: a row is made once.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "plant/plant.h"
@@ -11,46 +13,59 @@ namespace bpms {
 // First guess: the ends, the kinks of the organ's functions, and enough even steps that no wave is
 // overlooked.
 std::vector<double> first_nodes(const OrganAttributes& organ, double least_gap);
+// The nodes and the quarter points between them.
+std::vector<double> with_quarters(const std::vector<double>& nodes);
 
 // Distance of a point from the line through two others (from the point they share when they coincide).
 double distance_from_line(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-// rows(nodes) gives the rows at these places; deviation(first, quarter points 1..3, last) of five of them the
-// distance.
-template <class Rows, class Deviation>
-std::vector<double> subdivide(std::vector<double> nodes, const Rows& rows, const Deviation& deviation,
-                              double tolerance, double least_gap) {
-  constexpr int inner = 4;  // parts that an interval is looked at in
-  constexpr std::size_t most_nodes = 20000;
-  std::vector<bool> settled(nodes.size() - 1, false);
-  while (nodes.size() < most_nodes) {
-    std::vector<double> looked_at;
-    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      if (settled[i]) continue;
-      for (int k = 0; k <= inner; ++k) looked_at.push_back(nodes[i] + (nodes[i + 1] - nodes[i]) * k / inner);
+template <class Row>
+using FiveRows = std::array<const Row*, 5>;  // the ends of an interval and its quarter points
+
+// Halves intervals. between(a, b) makes the row in the middle of two, gap(a, b) says how far apart they are,
+// deviation(FiveRows) how far the surface lies from what is drawn between the outer two.
+template <class Row, class Between, class Gap, class Deviation>
+class Subdivision {
+ public:
+  Subdivision(const Between& between, const Gap& gap, const Deviation& deviation, double tolerance,
+              double least_gap)
+      : between_(between), gap_(gap), deviation_(deviation), tolerance_(tolerance), least_gap_(least_gap) {}
+
+  // `rows` at the first nodes and their quarter points; returns those that are needed.
+  std::vector<Row> nodes(const std::vector<Row>& rows) {
+    constexpr std::size_t inner = 4;
+    out_.reserve(2 * rows.size());
+    for (std::size_t i = 0; i + inner < rows.size(); i += inner) {
+      out_.push_back(rows[i]);
+      refine({&rows[i], &rows[i + 1], &rows[i + 2], &rows[i + 3], &rows[i + 4]});
     }
-    const auto at = rows(looked_at);
-    std::vector<double> next;
-    std::vector<bool> next_settled;
-    std::size_t used = 0;
-    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      next.push_back(nodes[i]);
-      bool split = false;
-      if (!settled[i]) {
-        split = nodes[i + 1] - nodes[i] > 2 * least_gap && deviation(&at[used]) > tolerance;
-        used += inner + 1;
-      }
-      next_settled.push_back(!split);
-      if (!split) continue;
-      next.push_back((nodes[i] + nodes[i + 1]) / 2);
-      next_settled.push_back(false);
-    }
-    next.push_back(nodes.back());
-    nodes = std::move(next);
-    settled = std::move(next_settled);
-    if (std::ranges::all_of(settled, [](bool done) { return done; })) break;
+    out_.push_back(rows.back());
+    return std::move(out_);
   }
-  return nodes;
+
+ private:
+  void refine(const FiveRows<Row>& r) {
+    constexpr std::size_t most_nodes = 20000;
+    if (out_.size() > most_nodes || !(gap_(*r[0], *r[4]) > 2 * least_gap_) || deviation_(r) <= tolerance_)
+      return;
+    const Row a = between_(*r[0], *r[1]), b = between_(*r[1], *r[2]);
+    refine({r[0], &a, r[1], &b, r[2]});
+    out_.push_back(*r[2]);
+    const Row c = between_(*r[2], *r[3]), d = between_(*r[3], *r[4]);
+    refine({r[2], &c, r[3], &d, r[4]});
+  }
+
+  const Between& between_;
+  const Gap& gap_;
+  const Deviation& deviation_;
+  double tolerance_, least_gap_;
+  std::vector<Row> out_;
+};
+
+template <class Row, class Between, class Gap, class Deviation>
+std::vector<Row> subdivide(const std::vector<Row>& rows, const Between& between, const Gap& gap,
+                           const Deviation& deviation, double tolerance, double least_gap) {
+  return Subdivision<Row, Between, Gap, Deviation>(between, gap, deviation, tolerance, least_gap).nodes(rows);
 }
 
 }  // namespace bpms

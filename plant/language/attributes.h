@@ -41,10 +41,13 @@ struct NumberAttribute {
 inline constexpr NameAttribute name_attributes[] = {
     {"material", &OrganAttributes::material, "bslh"},
     {"senescent_material", &OrganAttributes::senescent_material, "l"},
+    {"section", &OrganAttributes::section, "l"},
 };
 inline constexpr NumberAttribute number_attributes[] = {
     {"a_senescent", &OrganAttributes::senescent, 1, "l"},
     {"a_joint", &OrganAttributes::joint, 100, "s"},
+    {"a_midrib_width", &OrganAttributes::midrib_width, 1, "l"},
+    {"a_midrib_height", &OrganAttributes::midrib_height, 1, "l"},
 };
 inline constexpr ConstantAttribute constant_attributes[] = {
     {"a_length", &OrganAttributes::length_m, false, "slh"},

@@ -3,6 +3,7 @@
 
 #include "core/nearest.h"
 #include "core/units.h"
+#include "plant/geometry/sections/section.h"
 #include "plant/language/attributes.h"
 #include "plant/language/parse.h"
 
@@ -18,6 +19,7 @@ bool begins_like_number(std::string_view text) {
   return sign_or_digit || text == "nan" || text == "NaN" || text == "inf";
 }
 
+constexpr std::string_view section_attribute = "section";
 constexpr std::string_view organ_attribute = "organ";  // of c: which one
 
 class BlockParser {
@@ -37,6 +39,7 @@ class BlockParser {
       parse_attribute(name);
     }
     ++at_;
+    check_section();
     if (block_.kind == OrganKind::compound && out_.use->organ.empty())
       semantic_error(block_.where, "this block does not say which organ, expected: organ NAME");
     out_.notes = size_notes(block_, unit_, [&](std::string_view name) { return place_of(name); });
@@ -75,7 +78,8 @@ class BlockParser {
     for (const NameAttribute& attribute : name_attributes) {
       if (attribute.name == name) {
         once(name, place, attribute.letters);
-        block_.attributes.*attribute.member = parse_name("a material's name");
+        block_.attributes.*attribute.member =
+            parse_name(attribute.name == section_attribute ? "a section's name" : "a material's name");
         return;
       }
     }
@@ -144,6 +148,35 @@ class BlockParser {
                        name, other);
     }
     seen_.push_back({name, place});
+  }
+
+  // What a leaf's section needs, and what it cannot use. A number that depends on a parameter without a value
+  // is not known yet, and not 0.
+  void check_section() const {
+    const OrganAttributes& leaf = block_.attributes;
+    const SourceLocation where = place_of(section_attribute);
+    if (!leaf.section.empty() && !is_leaf_section(leaf.section)) {
+      std::string known;
+      for (const std::string& name : leaf_section_names()) known += (known.empty() ? "" : ", ") + name;
+      semantic_error(where, "unknown section {}; known: {}{}", in_quotes(leaf.section), known,
+                     did_you_mean(leaf.section, leaf_section_names()));
+    }
+    const LeafSection& section = leaf_section(leaf.section);
+    const auto given = [&](std::string_view name) {
+      return std::ranges::any_of(seen_, [&](const Seen& seen) { return seen.name == name; });
+    };
+    if (!section.has_curvature() && given("f_curvature"))
+      semantic_error(place_of("f_curvature"), "a section {} has no f_curvature", section.name());
+    for (const char* name : {"a_midrib_width", "a_midrib_height"}) {
+      if (!section.has_raised_midrib() && given(name))
+        semantic_error(place_of(name), "a section {} has no {}; raised_midrib has", section.name(), name);
+      if (section.has_raised_midrib() && !given(name))
+        semantic_error(where, "a section {} needs a_midrib_width and a_midrib_height, over the leaf's width",
+                       section.name());
+    }
+    if (std::isnan(leaf.midrib_width) || std::isnan(leaf.midrib_height)) return;
+    if (const std::string complaint = section.complaint(section_form(leaf, 0)); !complaint.empty())
+      semantic_error(where, "{}", complaint);
   }
 
   std::string parse_name(std::string_view what) {

@@ -12,7 +12,7 @@ constexpr std::size_t longest_line = 110;
 constexpr int indent_step = 2;
 
 // The pieces of an expression's token: numbers, names, single characters.
-std::vector<std::string_view> pieces(std::string_view token) {
+std::vector<std::string_view> expression_pieces(std::string_view token) {
   std::vector<std::string_view> out;
   while (!token.empty()) {
     std::size_t length = 1;
@@ -136,7 +136,7 @@ class PlantFormatter {
     const std::size_t begin = at;
     for (; at < code_.tokens.size(); next_ = place_[at++] + 1) {
       put_comments(place_[at], false);
-      for (const std::string_view piece : pieces(code_.tokens[at].text)) {
+      for (const std::string_view piece : expression_pieces(code_.tokens[at].text)) {
         const int before = spacing.before(piece);
         put_text(piece, at == begin ? gap : before);
         within_item_ = true;

@@ -39,7 +39,10 @@ OrganAttributes::OrganAttributes(const OrganAttributes& other)
       f_azimuth(copy(other.f_azimuth)),
       f_twist(copy(other.f_twist)),
       f_curvature(copy(other.f_curvature)),
-      f_width(copy(other.f_width)) {}
+      f_width(copy(other.f_width)),
+      section(other.section),
+      midrib_width(other.midrib_width),
+      midrib_height(other.midrib_height) {}
 
 OrganAttributes& OrganAttributes::operator=(const OrganAttributes& other) {
   OrganAttributes copied(other);

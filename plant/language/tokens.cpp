@@ -7,7 +7,7 @@
 namespace bpms {
 namespace {
 
-bool is_letter(char c) {
+bool is_latin_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 bool is_digit(char c) {
@@ -101,13 +101,13 @@ std::string quoted(std::string_view value) {
 
 bool is_plain_word(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) {
-    return is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.';
+    return is_latin_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.';
   });
 }
 
 bool is_identifier(std::string_view text) {
   return !text.empty() && !is_digit(text.front()) &&
-         std::ranges::all_of(text, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+         std::ranges::all_of(text, [](char c) { return is_latin_letter(c) || is_digit(c) || c == '_'; });
 }
 
 }  // namespace bpms

@@ -34,7 +34,9 @@ std::vector<std::string> compound_names(const Plant& plant) {
   for (const CompoundOrgan& organ : plant.compounds) {
     std::string name = organ.name;
     if (!seen.insert(name).second) {
-      for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}_{}", organ.name, k);
+      // "p_2" would be a property.
+      const std::string stem = is_attribute_name(organ.name + "_2") ? "organ_" + organ.name : organ.name;
+      for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}_{}", stem, k);
     }
     out.push_back(name);
   }

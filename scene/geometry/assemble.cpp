@@ -35,6 +35,8 @@ void append(const Mesh& own, const std::vector<std::uint32_t>& materials, const 
   for (Mesh::Organ o : own.organs) {
     o.length_m *= at.scale;
     o.area_m2 *= at.scale * at.scale;
+    o.volume_m3 *= at.scale * at.scale * at.scale;
+    o.centroid_m = at.position_m + at.scale * (at.rotation * o.centroid_m);
     mesh.organs.push_back(std::move(o));
   }
   out.material_of_organ.insert(out.material_of_organ.end(), materials.begin(), materials.end());
@@ -51,11 +53,15 @@ void append(const Prototype& own, const Instance& at, Prototype& out, Mesh& mesh
     out.material_of_disc.push_back(own.material_of_disc.empty() ? own.disc_material
                                                                 : own.material_of_disc[k]);
   }
-  for (Shape shape : own.shapes) {
+  const auto first_organ = static_cast<std::uint32_t>(mesh.organs.size());
+  for (std::size_t k = 0; k < own.shapes.size(); ++k) {
+    Shape shape = own.shapes[k];
     shape.centre_m = place(shape.centre_m);
     shape.rotation = Rotation(at.rotation.quaternion() * shape.rotation.quaternion());
     shape.size_m = (at.scale * shape.size_m.cast<double>()).cast<float>();
     out.shapes.push_back(shape);
+    const std::uint32_t organ = own.organ_of(k);
+    out.organ_of_shape.push_back(organ == no_organ ? no_organ : first_organ + organ);
   }
   if (own.mesh) append(*own.mesh, own.material_of_organ, at, out, mesh);
 }
@@ -81,7 +87,8 @@ class Assembler {
       const Prototype& own = scene_.prototypes[p];
       primitives_[p] = static_cast<double>(own.discs.size() + own.shapes.size() +
                                            (own.mesh ? own.mesh->triangles.size() : 0));
-      if (own.mesh) normals_[p] = has_normals(*own.mesh) ? Normals::yes : Normals::no;
+      if (own.mesh && !own.mesh->triangles.empty())
+        normals_[p] = has_normals(*own.mesh) ? Normals::yes : Normals::no;
     }
     for (const std::size_t k : order_) choose(k);
     place_all();
@@ -166,7 +173,7 @@ class Assembler {
     Instance whole;
     whole.prototype = static_cast<std::uint32_t>(first_ + k);
     write(whole);
-    if (!mesh->triangles.empty()) out.mesh = std::move(mesh);
+    if (!mesh->organs.empty()) out.mesh = std::move(mesh);
     made_[k] = static_cast<std::uint32_t>(scene_.prototypes.size());
     scene_.prototypes.push_back(std::move(out));
     return made_[k];

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "core/text.h"
 
@@ -36,10 +37,21 @@ std::vector<Disc> parse_disc_list(const std::string& path, std::string_view text
     const Eigen::Vector3d normal(row[4], row[5], row[6]);
     if (!(normal.norm() > 0))
       bad_input(reader.where(*first), "the normal is (0, 0, 0), expected a direction");
+    // A direction that is a unit vector to the precision of floats stays as it is written.
+    constexpr double float_steps = 4e-7;
+    const bool unit = std::abs(normal.squaredNorm() - 1) < float_steps;
     out.push_back({Eigen::Vector3d(row[1], row[2], row[3]).cast<float>(), static_cast<float>(row[0]),
-                   normal.normalized().cast<float>()});
+                   (unit ? normal : normal.normalized()).cast<float>()});
   }
   if (out.empty()) bad_input({path}, "no rows, expected discs (radius x y z nx ny nz)");
+  return out;
+}
+
+std::string disc_list_text(const std::vector<Disc>& discs) {
+  std::string out = "# radius x y z nx ny nz, metres\n";
+  for (const Disc& disc : discs)
+    fmt::format_to(std::back_inserter(out), "{} {} {} {} {} {} {}\n", disc.radius_m, disc.centre_m.x(),
+                   disc.centre_m.y(), disc.centre_m.z(), disc.normal.x(), disc.normal.y(), disc.normal.z());
   return out;
 }
 

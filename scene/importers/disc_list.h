@@ -12,4 +12,6 @@ namespace bpms {
 // column.
 std::vector<Disc> read_disc_list(const std::string& path);
 std::vector<Disc> parse_disc_list(const std::string& path, std::string_view text);
+// Rows that read back as the same discs.
+std::string disc_list_text(const std::vector<Disc>& discs);
 }  // namespace bpms

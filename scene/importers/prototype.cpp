@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "core/units.h"
-#include "plant/plant.h"
+#include "plant/plant_file.h"
 #include "scene/importers/disc_list.h"
 #include "scene/importers/mesh_file.h"
 #include "scene/importers/patch_file.h"
@@ -51,10 +51,31 @@ Prototype from_discs(const PrototypeTable& of, const TomlValue& file, MaterialNa
 }
 
 Prototype from_plant(const PrototypeTable& of, const TomlValue& file, MaterialNames& names, Scene& scene) {
-  const Plant read = read_plant(file.file_relative(file.string()));
+  const std::string path = file.file_relative(file.string());
+  PlantFileOptions options;
+  if (const TomlValue unit = of.table.get("unit")) {
+    if (path.ends_with(".bpms")) unit.reject("a plant text says its unit itself");
+    options.opf.metres_per_unit = options.mtg.metres_per_unit = unit_of(of.table);
+    options.mtg.metres_per_diameter_unit = options.mtg.metres_per_unit;
+  }
+  if (!is_plant_file(path))
+    file.reject(fmt::format("expected a plant file ({})", fmt::join(plant_file_extensions(), " ")));
+  MeshOptions how = of.meshes;
+  if (const TomlValue solids = of.table.get("solids")) {
+    if (!path.ends_with(".bpms")) solids.reject("for plants of the plant language alone (.bpms)");
+    how.bodies = solids.one_of({"shapes", "triangles"}) == "triangles";
+  }
+  if (path.ends_with(".bpms")) {
+    const Plant read = read_plant(path);
+    scene.inputs.insert(scene.inputs.end(), read.inputs.begin(), read.inputs.end());
+    scene.notes.insert(scene.notes.end(), read.warnings.begin(), read.warnings.end());
+    return plant_prototype(read, of.name, of.all(), of.renamed(), of.where(), names, how);
+  }
+  PlantFile read = read_plant_file(path, options);
   scene.inputs.insert(scene.inputs.end(), read.inputs.begin(), read.inputs.end());
-  scene.notes.insert(scene.notes.end(), read.warnings.begin(), read.warnings.end());
-  return plant_prototype(read, of.name, of.all(), of.renamed(), of.where(), names, of.meshes);
+  scene.notes.insert(scene.notes.end(), read.notes.begin(), read.notes.end());
+  return mesh_prototype(std::make_shared<const Mesh>(std::move(read.mesh)), of.name, of.all(), of.renamed(),
+                        of.where(), names);
 }
 
 Prototype from_mesh(const PrototypeTable& of, const TomlValue& file, MaterialNames& names, Scene& scene) {

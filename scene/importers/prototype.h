@@ -12,5 +12,5 @@ namespace bpms {
 bool has_parts(const TomlValue& table);
 // One with geometry. Files that are read are added to the scene's inputs, what is odd to its notes.
 Prototype read_prototype(const std::string& name, const TomlValue& table, MaterialNames& names, Scene& scene,
-                         const MeshOptions& meshes = {});
+                         const MeshOptions& how);
 }  // namespace bpms

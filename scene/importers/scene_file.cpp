@@ -171,7 +171,7 @@ class SceneReader {
 }  // namespace
 
 Scene read_scene_geometry(const TomlDocument& document) {
-  return read_scene_geometry(document, {});
+  return read_scene_geometry(document, traced_plants());
 }
 
 Scene read_scene_geometry(const TomlDocument& document, const MeshOptions& meshes) {

@@ -382,6 +382,7 @@ Eigen::Vector3d Intersector::Impl::describe_shape(const Found& found, const Prot
   hit.dp_du = point.dp_du.cast<float>();
   hit.dp_dv = point.dp_dv.cast<float>();
   hit.material = prototype.shapes[hit.id.primitive / 4].material;
+  hit.organ = prototype.organ_of(hit.id.primitive / 4);
   return point.position;
 }
 

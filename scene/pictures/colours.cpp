@@ -47,6 +47,7 @@ struct NamedColour {
 };
 const NamedColour named_colours[] = {
     {{"soil", "ground", "sol"}, {138, 106, 74}},
+    {{"dead", "senescent", "litter"}, {184, 150, 88}},
     {{"leaf", "blade", "lamina"}, {63, 143, 79}},
     {{"stem", "culm", "stalk", "tige"}, {167, 182, 76}},
     {{"bark", "wood", "branch", "trunk"}, {117, 87, 60}},

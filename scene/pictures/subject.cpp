@@ -2,29 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
-#include "core/units.h"
-#include "scene/importers/mesh_file.h"
-#include "scene/importers/plants.h"
 #include "scene/intersect/box.h"
 
 namespace bpms {
 namespace {
-
-Scene mesh_scene(const std::string& path) {
-  Scene scene;
-  scene.domain.periodic = false;
-  MaterialNames names(scene);
-  Prototype prototype;
-  prototype.name = std::filesystem::path(path).stem().string();
-  prototype.mesh = read_mesh_file(path, 1, mesh_file_is_y_up(path));
-  prototype.material_of_organ = organ_materials(*prototype.mesh, "", nullptr, {path}, names);
-  scene.prototypes.push_back(std::move(prototype));
-  scene.instances.emplace_back();
-  scene.inputs.push_back(path);
-  return scene;
-}
 
 Box box_of_instances(const Scene& scene) {
   std::vector<Box> own;
@@ -89,14 +71,6 @@ void add_ground(Scene& scene) {
 }
 
 }  // namespace
-
-Scene read_any_scene(const std::string& path, const MeshOptions& meshes) {
-  if (path.ends_with(".bpms")) return plant_scene(path, meshes);
-  if (!path.ends_with(".toml")) return mesh_scene(path);
-  const TomlDocument document = TomlDocument::read(path);
-  if (document.root().has("planting") || document.root().has("plants")) return canopy_scene(path, meshes);
-  return read_scene_geometry(document, meshes);
-}
 
 Scene picture_subject(Scene scene, const std::string& path) {
   scene.domain.periodic = false;

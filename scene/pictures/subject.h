@@ -5,14 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "plant/plant_mesh.h"
 #include "scene/intersect/intersector.h"
 #include "scene/scene.h"
 
 namespace bpms {
-
-// A plant (.bpms), a canopy.toml, a scene.toml (its geometry) or a mesh file, told by name and content.
-Scene read_any_scene(const std::string& path, const MeshOptions& meshes);
 
 inline constexpr const char* ground_kind = "ground";
 

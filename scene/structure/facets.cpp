@@ -69,9 +69,35 @@ void visit_ellipsoid(const Shape& shape, ShapePart& part) {
     for (int k = 0; k < around; ++k) part.add(at(k, row), at(k + 1, row), at(k + 1, row + 1), at(k, row + 1));
 }
 
+// Shapes that are parts of one organ are a chain, one behind the other: the ends between them lie inside, and
+// their area together is the organ's.
+void visit_shapes(const Prototype& prototype, const std::function<void(const Facet&)>& visit) {
+  const std::vector<Shape>& shapes = prototype.shapes;
+  for (std::size_t begin = 0, end = 0; begin < shapes.size(); begin = end) {
+    const std::uint32_t organ = prototype.organ_of(begin);
+    end = begin + 1;
+    while (organ != no_organ && end < shapes.size() && prototype.organ_of(end) == organ) ++end;
+    double area = 0;
+    std::vector<Facet> facets;
+    for (std::size_t k = begin; k < end; ++k)
+      visit_shape_facets(shapes[k],
+                         [&](const Facet& facet) {
+                           area += facet.area_vector.norm();
+                           facets.push_back(facet);
+                         },
+                         {k == begin, k + 1 == end});
+    const double scale = organ == no_organ || !(area > 0) ? 1 : prototype.mesh->organs[organ].area_m2 / area;
+    for (Facet& facet : facets) {
+      facet.area_vector *= scale;
+      facet.organ = organ;
+      visit(facet);
+    }
+  }
+}
+
 }  // namespace
 
-void visit_shape_facets(const Shape& shape, const std::function<void(const Facet&)>& visit) {
+void visit_shape_facets(const Shape& shape, const std::function<void(const Facet&)>& visit, ShapeEnds which) {
   ShapePart part(shape);
   if (shape.kind == Shape::Kind::ellipsoid) {
     visit_ellipsoid(shape, part);
@@ -85,9 +111,10 @@ void visit_shape_facets(const Shape& shape, const std::function<void(const Facet
              on_circle(second, k, length));
   part.deliver(shape_area_m2(shape) - ends, visit);
   if (!shape.closed) return;
-  for (int k = 0; k < around; ++k) part.add({0, 0, 0}, on_circle(first, k + 1, 0), on_circle(first, k, 0));
+  for (int k = 0; which.first && k < around; ++k)
+    part.add({0, 0, 0}, on_circle(first, k + 1, 0), on_circle(first, k, 0));
   part.deliver(pi * first * first, visit);
-  for (int k = 0; k < around; ++k)
+  for (int k = 0; which.second && k < around; ++k)
     part.add({0, 0, length}, on_circle(second, k, length), on_circle(second, k + 1, length));
   part.deliver(pi * second * second, visit);
 }
@@ -111,7 +138,7 @@ void visit_facets(const Prototype& prototype, const std::function<void(const Fac
         prototype.material_of_disc.empty() ? prototype.disc_material : prototype.material_of_disc[k];
     visit(facet);
   }
-  for (const Shape& shape : prototype.shapes) visit_shape_facets(shape, visit);
+  visit_shapes(prototype, visit);
   if (!prototype.mesh) return;
   const Mesh& mesh = *prototype.mesh;
   facet.disc_radius_m = 0;

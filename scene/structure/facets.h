@@ -10,8 +10,6 @@
 
 namespace bpms {
 
-inline constexpr std::uint32_t no_organ = 0xffffffffu;
-
 struct Facet {
   Eigen::Vector3d area_vector;             // normal x area
   std::array<Eigen::Vector3d, 3> corners;  // of a disc: the first is its centre
@@ -29,7 +27,12 @@ void visit_facets(const Prototype& prototype, const std::function<void(const Fac
 // How many it has.
 std::uint64_t facet_count(const Prototype& prototype);
 
-// A shape's surface as triangles; the area of each part (side, ends) is the exact one.
-void visit_shape_facets(const Shape& shape, const std::function<void(const Facet&)>& visit);
+// A shape's surface as triangles; the area of each part (side, ends) is the exact one. Of a closed cylinder
+// the ends that are asked for.
+struct ShapeEnds {
+  bool first = true, second = true;
+};
+void visit_shape_facets(const Shape& shape, const std::function<void(const Facet&)>& visit,
+                        ShapeEnds ends = {});
 
 }  // namespace bpms

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plant/mesh_part.h"
+
 namespace bpms {
 namespace {
 
@@ -14,24 +16,12 @@ std::shared_ptr<const Mesh> part_of(const std::shared_ptr<const Mesh>& mesh, boo
   const auto count = std::count_if(mesh->organ_of_triangle.begin(), mesh->organ_of_triangle.end(), wanted);
   if (count == 0) return nullptr;
   if (static_cast<std::size_t>(count) == mesh->triangles.size()) return mesh;
-  auto out = std::make_shared<Mesh>();
-  out->triangles.reserve(static_cast<std::size_t>(count));
-  constexpr std::uint32_t unused = 0xffffffffu;
-  std::vector<std::uint32_t> renumbered(mesh->positions_m.size(), unused);
-  for (std::size_t t = 0; t < mesh->triangles.size(); ++t) {
-    if (!wanted(mesh->organ_of_triangle[t])) continue;
-    std::array<std::uint32_t, 3> corners = mesh->triangles[t];
-    for (std::uint32_t& corner : corners) {
-      std::uint32_t& at = renumbered[corner];
-      if (at == unused) {
-        at = static_cast<std::uint32_t>(out->positions_m.size());
-        out->positions_m.push_back(mesh->positions_m[corner]);
-      }
-      corner = at;
-    }
-    out->triangles.push_back(corners);
-  }
-  return out;
+  Mesh out = mesh_part(*mesh, wanted);
+  out.normals = {};
+  out.uv = {};
+  out.organs = {};
+  out.organ_of_triangle = {};
+  return std::make_shared<const Mesh>(std::move(out));
 }
 
 bool is_bare(const Prototype& prototype) {

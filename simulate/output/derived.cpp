@@ -47,7 +47,8 @@ double intercepting_area_m2(const Scene& scene) {
     const Prototype& prototype = scene.prototypes[instance.prototype];
     double own = 0;
     for (const Disc& disc : prototype.discs) own += pi * disc.radius_m * disc.radius_m;
-    for (const Shape& shape : prototype.shapes) own += 0.5 * shape_area_m2(shape);
+    for (std::size_t k = 0; k < prototype.shapes.size(); ++k)
+      if (prototype.organ_of(k) == no_organ) own += 0.5 * shape_area_m2(prototype.shapes[k]);
     if (prototype.mesh)
       for (const Mesh::Organ& organ : prototype.mesh->organs)
         own += (organ.kind == "leaf" ? 1 : 0.5) * organ.area_m2;

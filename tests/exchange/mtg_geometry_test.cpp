@@ -46,7 +46,8 @@ TEST(MtgGeometry, PointsMakeChains) {
   EXPECT_NEAR(organ_named(mesh, "U1").length_m, 0.20, 1e-12);
   EXPECT_NEAR(organ_named(mesh, "U3").length_m, 0.50, 1e-12);
   EXPECT_NEAR(organ_named(mesh, "U4").length_m, 0.10, 1e-12);
-  // The branch is a cylinder of 0.5 cm with a lid; polygons as long as their circles (a lid of 12 sides is 2.3 % short).
+  // The branch is a cylinder of 0.5 cm with a lid; polygons as long as their circles (a lid of 12 sides
+  // is 2.3 % short).
   EXPECT_NEAR(organ_named(mesh, "U4").area_m2, pi * 0.005 * 0.1 + pi * 0.0025 * 0.0025, 5e-7);
   float low = 1;
   for (const Eigen::Vector3f& p : mesh.positions_m) low = std::min(low, p.z());
@@ -137,7 +138,8 @@ TEST(MtgGeometry, CoffeeTreeStandsWhereItsOpfSays) {
     }
     std::vector<Eigen::Vector3d> out;
     for (std::size_t i = 0; i < sum.size(); ++i)
-      if (mesh.organs[i].kind == kind && area[i] > 0 && mesh.organs[i].length_m > 0) out.push_back(sum[i] / area[i]);
+      if (mesh.organs[i].kind == kind && area[i] > 0 && mesh.organs[i].length_m > 0)
+        out.push_back(sum[i] / area[i]);
     return out;
   };
   for (const std::string kind : {"stem", "leaf"}) {
@@ -149,8 +151,9 @@ TEST(MtgGeometry, CoffeeTreeStandsWhereItsOpfSays) {
     std::sort(off.begin(), off.end());
     std::cout << kind << ": " << a.size() << ", off by median " << off[off.size() / 2] << " m, 90 % "
               << off[off.size() * 9 / 10] << " m, worst " << off.back() << " m\n";
-    // The side on which each axis of a node stands is not in the columns, so places are compared by height and
-    // distance from the trunk, where most of the axes must agree; those of second order start from the others.
+    // The side on which each axis of a node stands is not in the columns, so places are compared by height
+    // and distance from the trunk, where most of the axes must agree; those of second order start from the
+    // others.
     if (kind == "stem") {
       EXPECT_LT(off[off.size() / 2], 1e-3);
     }

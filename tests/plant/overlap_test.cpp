@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "plant/canopy/triangle_crossing.h"
+#include "plant/geometry/triangle_crossing.h"
 #include "plant/plant_mesh.h"
 #include "tests/plant/canopy_files.h"
 
@@ -149,11 +149,10 @@ TEST_F(OverlapTest, AgreesWithAllPairsOfTriangles) {
   folder.write("bush.bpms",
                "units cm [s[+l][+l][+l]] s { material stem a_length 6 a_radius 0.2 } + 1 { a_twist 10 } + 2 "
                "{ a_twist 130 } + 3 { "
-               "a_twist 250 } l { material leaf a_length 12 a_width 2 f_inclination n 0 40 1 100 f_curvature "
-               "n 0 30 1 5 }");
+               "a_twist 250 } l { material leaf a_length 12 a_width 2 f_inclination n 0 40 1 100 }");
   for (const std::string boundary : {"open", "periodic"}) {
-    Canopy canopy = read("size_m = [0.25, 0.2]\nboundary = \"" + boundary + "\"",
-                         "pattern = \"random\"\ndensity_per_m2 = 80\n", "[overlap]\n",
+    Canopy canopy = read("size_m = [0.5, 0.4]\nboundary = \"" + boundary + "\"",
+                         "pattern = \"random\"\ndensity_per_m2 = 55\n", "[overlap]\n",
                          "[[plants]]\nfile = \"bush.bpms\"\nscale = { mean = 1, sd = 0.1 }\n");
     const Mesh& mesh = *canopy.plants[0].mesh;
     std::vector<std::vector<TriangleCorners>> world;
@@ -177,12 +176,14 @@ TEST_F(OverlapTest, AgreesWithAllPairsOfTriangles) {
           for (int x = -images; x <= images; ++x) {
             for (int y = -images; y <= images; ++y) {
               if (j == i && x == 0 && y == 0) continue;
-              for (TriangleCorners other : world[j]) {
+              const Eigen::Vector3d by(0.5 * x, 0.4 * y, 0);
+              const double size = 0.1;  // none of the triangles is larger
+              for (const TriangleCorners& unmoved : world[j]) {
                 if (crosses) break;
-                for (Eigen::Vector3d& corner : other) corner += Eigen::Vector3d(0.25 * x, 0.2 * y, 0);
-                const double size = 0.1;  // none of the triangles is larger
-                crosses =
-                    (other[0] - world[i][t][0]).norm() < 2 * size && triangles_cross(world[i][t], other);
+                if ((unmoved[0] + by - world[i][t][0]).squaredNorm() > 4 * size * size) continue;
+                TriangleCorners other = unmoved;
+                for (Eigen::Vector3d& corner : other) corner += by;
+                crosses = triangles_cross(world[i][t], other);
               }
             }
           }

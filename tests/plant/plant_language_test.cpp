@@ -199,9 +199,38 @@ TEST(PlantLanguage, NotesWhatIsUnusedMissingOrAmbiguous) {
   EXPECT_THAT(parse("units m\nl\nl { a_length 1 a_width 0.1 }").warnings, IsEmpty());
 }
 
+TEST(PlantLanguage, NotesSizesThatNoPlantHas) {
+  const auto notes = [](const std::string& text) { return parse(text).warnings; };
+  // The unit that changes the number least is the one proposed.
+  EXPECT_THAT(
+      notes("units m l l {\n a_length 25 a_width 0.5 }"),
+      ElementsAre("x.bpms:2:2: a leaf 25 m long; is the unit ('units m') right? With 'units cm' it would "
+                  "be 25 cm"));
+  EXPECT_THAT(
+      notes("units mm l l { a_length 0.25 a_width 0.2 }"),
+      ElementsAre(HasSubstr("x.bpms:1:16: a leaf 0.25 mm long; is the unit ('units mm') right? With 'units "
+                            "cm' it would be 2.5 mm")));
+  EXPECT_THAT(
+      notes("units m s s { a_length 130 a_radius 1 }"),
+      ElementsAre(HasSubstr("a stem 130 m long; is the unit ('units m') right? With 'units cm' it would be "
+                            "1.3 m")));
+  EXPECT_THAT(notes("units m b b { a_radius 2 }"),
+              ElementsAre(HasSubstr("x.bpms:1:15: a bud 2 m in radius")));
+  EXPECT_THAT(notes("units m h h { a_length 5000 a_radius 0.1 }"),
+              ElementsAre(testing::EndsWith("is the unit ('units m') right?")));  // no unit helps
+  EXPECT_THAT(
+      notes("l l { a_length 3 a_width 4 }"),
+      ElementsAre("x.bpms:1:18: a leaf wider (4 cm) than long (3 cm): are a_width and a_length as meant?"));
+  EXPECT_THAT(notes("s s { a_length 3 a_radius 4 }"),
+              ElementsAre(HasSubstr("x.bpms:1:18: a stem of larger radius (4 cm) than length (3 cm)")));
+  EXPECT_THAT(notes("[l][s][h][b] l { a_length 100 a_width 3 } s { a_length 3 a_radius 3 } "
+                    "h { a_length 10 a_radius 1 } b { a_radius 0.2 }"),
+              IsEmpty());
+}
+
 TEST(PlantLanguage, TheExamplesRead) {
   for (const char* name : {"grass", "figure1", "figure1_leaves", "figure2_0", "figure2_45", "figure2_90",
-                           "figure2_135", "figure2_180"}) {
+                           "figure2_135", "figure2_180", "wheat", "fern"}) {
     const Plant plant = read_plant(std::string(BPMS_SOURCE_DIR) + "/examples/plants/" + name + ".bpms");
     EXPECT_THAT(plant.warnings, IsEmpty()) << name;
     EXPECT_EQ(plant.name, name);

@@ -97,7 +97,7 @@ TEST_F(PlantSourceTest, TheFirstBadFileIsTheOneThatIsNamed) {
   folder.write("set/p07.bpms", "units cm l l { material leaf a_lenght 3 }");
   folder.write("set/p30.bpms", "units cm [l");
   for (int k = 0; k < 5; ++k)
-    BPMS_EXPECT_ERROR(read("size_m = [4, 3]", once, "", set), bad_input, "p07.bpms:1:");
+    BPMS_EXPECT_ERROR(read("size_m = [8, 5]", once, "", set), bad_input, "p07.bpms:1:");
 }
 
 TEST_F(PlantSourceTest, StemMapsNameTheirPlants) {

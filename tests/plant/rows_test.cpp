@@ -173,6 +173,8 @@ TEST_F(RowsTest, RefusesWhatContradictsItself) {
   refused("size_m = [2, 2]", rows + "plants_per_m = 9\nhill_radius_m = 1", "there are no hills");
   refused("size_m = [2, 2]", rows + "plants_per_m = 9\nplants_per_hill = 2", "missing key 'hill_radius_m'");
   refused("size_m = [2, 2]", rows + "plants_per_m = 9\nin_row = \"drill\"", "unknown 'drill'");
+  refused("size_m = [2, 2]", rows + "plants_per_m = 9\nhill_radius_m = 1\nplants_per_hill = 1e-9",
+          "more than 10000000");
   refused("size_m = [2, 2]", "pattern = \"hard_core\"\ndensity_per_m2 = 100\nmin_distance_m = 0.1",
           "400 plants this far apart do not fit at random: 100 per m2 are asked for, some 69.65 is the most");
   // Just below the most: random addition would take for ever.

@@ -87,7 +87,8 @@ TEST_F(CanopyOnGround, RidgesRepeatWithoutAStep) {
     Hit hit;
     ASSERT_EQ(intersector.intersect({{x, 0.9f, 5}, {0, 0, -1}, 1e30f, {}}, hit), Escape::hit);
     const double from_top = std::abs(std::remainder(static_cast<double>(x) - 0.25, 0.5));
-    if (hit.ground) EXPECT_NEAR(hit.position.z(), 0.1 * (1 - from_top / 0.25), 1e-6);
+    ASSERT_TRUE(hit.ground);
+    EXPECT_NEAR(hit.position.z(), 0.1 * (1 - from_top / 0.25), 1e-6);
   }
   BPMS_EXPECT_ERROR(scene("[domain]\nsize_m = [4, 4]\n"), ErrorKind::bad_input, "periodic domain of 2 x 2 m");
 }

@@ -3,8 +3,10 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "plant/leaf_patches.h"
 #include "scene/importers/disc_list.h"
 #include "scene/importers/mesh_file.h"
+#include "scene/importers/patch_file.h"
 #include "scene/intersect/intersector.h"
 #include "scene/scene.h"
 #include "tests/data.h"
@@ -115,6 +117,37 @@ positions = [[1, 0, 0]]
     EXPECT_EQ(scene.materials[grass.material_of_organ[k]],
               grass.mesh->organs[k].kind == "leaf" ? "green" : "bark");
   EXPECT_NEAR(scene.prototypes[1].mesh->organs[0].area_m2, 1e-4, 1e-9);
+}
+
+TEST_F(SceneFile, TakesStemsAsShapesOrTriangles) {
+  const auto grass = [&](const std::string& more) {
+    return read(
+               "[domain]\nboundary = \"open\"\n[materials.leaf]\n[materials.stem]\n[prototypes.grass]\nplant "
+               "= "
+               "\"grass.bpms\"\n" +
+               more + "\n[[instances]]\nprototype = \"grass\"\npositions = [[0, 0, 0]]\n")
+        .prototypes[0];
+  };
+  EXPECT_EQ(grass("").shapes.size(), 1u);
+  EXPECT_EQ(grass("solids = \"shapes\"").shapes.size(), 1u);
+  const Prototype triangles = grass("solids = \"triangles\"");
+  EXPECT_TRUE(triangles.shapes.empty());
+  EXPECT_GT(triangles.mesh->triangles.size(), grass("").mesh->triangles.size());
+  EXPECT_THROW(grass("solids = \"boxes\""), Error);
+}
+
+// Leaves that were written as Bezier patches come back, to the digits written.
+TEST_F(SceneFile, ReadsThePatchesOfLeavesBack) {
+  const Plant plant =
+      read_plant(folder.write("leaf.bpms",
+                              "units cm\nl\nl { a_length 20 a_width 2 "
+                              "f_inclination n 0 20 1 60 section v_fold f_curvature n 0 20 1 5 }\n"));
+  const std::vector<BezierPatch> patches = plant_patches(plant, 1e-4);
+  const std::vector<BezierPatch> back = parse_patches("leaf.bpt", patch_file_text(patches));
+  ASSERT_EQ(back.size(), patches.size());
+  EXPECT_GE(patches.size(), 2u);
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_LT((back[k][i] - patches[k][i]).norm(), 1e-10);
 }
 
 TEST_F(SceneFile, NamesWhatIsWrongAndWhere) {
