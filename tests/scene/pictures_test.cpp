@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "scene/importers/any_scene.h"
 #include "scene/pictures/legend.h"
 #include "scene/pictures/subject.h"
 #include "scene/pictures/viewer_document.h"
