@@ -51,7 +51,7 @@ def relief():
         height = ridge(across, 0.28 * (1 - 0.7 * u))
         for k in range(PAIRS):
             # Where this vein is at this distance from the midrib: half as far forward, and bending.
-            start = LENGTH * (0.04 + 0.9 * k / PAIRS)
+            start = LENGTH * (0.03 + 0.78 * k / PAIRS)
             along = start + 0.45 * across + 0.05 * across**2
             slant = math.hypot(1.0, 0.45 + 0.1 * across)
             fade = max(0.0, 1 - across / (0.5 * WIDTH))
