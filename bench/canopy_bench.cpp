@@ -116,17 +116,18 @@ StandTimes measure(const std::string& file) {
   fmt::print("  scene {}, {} triangles, {:.0f} MiB\n", making.text(), triangles,
              status_mib("VmRSS") - before);
   const Stopwatch building;
-  const Intersector intersector(scene);
+  const GapScene rays(scene);
   out.intersector = building.processors();
   fmt::print("  intersector {}, {:.0f} MiB\n", building.text(), status_mib("VmRSS") - before);
   const Stopwatch tracing;
-  const std::vector<Gap> gaps = gap_fraction(intersector, Footprint(scene), scene.ground.value_or(Ground{}),
-                                             ten_angles_deg(), {1u << 16, 1});
+  GapOptions options;
+  options.target_se = 0.002;
+  const std::vector<Gap> gaps = gap_fraction(rays, gap_directions(ten_angles_deg()), options);
   out.gaps = tracing.processors();
   double worst = 0;
-  for (const Gap& gap : gaps) worst = std::max(worst, gap.standard_error);
+  for (const Gap& gap : gaps) worst = std::max(worst, gap.plant.standard_error);
   fmt::print("  gap fraction at 10 angles {}, P(0) {:.3f}, standard errors up to {:.4f}\n", tracing.text(),
-             gaps[0].p, worst);
+             gaps[0].plant.p, worst);
   std::fflush(stdout);
   return out;
 }
