@@ -83,8 +83,8 @@ void PlantCrossings::Impl::visit_neighbours(std::size_t i, const Placement& ther
   for (long long y = clamped(from(1), 1); y <= clamped(to(1), 1); ++y) {
     for (long long x = clamped(from(0), 0); x <= clamped(to(0), 0); ++x) {
       const long long cell_x = wrapped(x, 0), cell_y = wrapped(y, 1);
-      const Eigen::Vector2d cell_period(static_cast<double>((x - cell_x) / count[0]),
-                                        static_cast<double>((y - cell_y) / count[1]));
+      const long long periods_x = (x - cell_x) / count[0], periods_y = (y - cell_y) / count[1];  // whole
+      const Eigen::Vector2d cell_period(static_cast<double>(periods_x), static_cast<double>(periods_y));
       for (const std::uint32_t j : cells[static_cast<std::size_t>(cell_y * count[0] + cell_x)]) {
         if (j == i) continue;
         Eigen::Vector3d by = Eigen::Vector3d::Zero();

@@ -47,7 +47,7 @@ void for_each_frame_point(const Scene& scene, const Take& take) {
 }
 
 // The distance from the middle at which an eye sees all of the scene, and nothing touches the eye.
-double eye_distance(const Scene& scene, const Frame& frame, double tan_x, double tan_y) {
+double eye_distance(const Scene& scene, const PictureFrame& frame, double tan_x, double tan_y) {
   const Eigen::Vector3d middle = 0.5 * (frame.low + frame.high);
   double distance = 0;
   for_each_frame_point(scene, [&](const Eigen::Vector3d& p) {
@@ -72,8 +72,8 @@ PictureView named_view(const std::string& name) {
   bad_input({"--views"}, "unknown view {}{}", in_quotes(name), did_you_mean(name, view_names()));
 }
 
-Frame frame_of(const Scene& scene, const PictureView& view) {
-  Frame out;
+PictureFrame frame_of(const Scene& scene, const PictureView& view) {
+  PictureFrame out;
   const double azimuth = radians(view.azimuth_deg), elevation = radians(view.elevation_deg);
   out.back = {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
               std::sin(elevation)};

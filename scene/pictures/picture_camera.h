@@ -19,14 +19,14 @@ PictureView named_view(const std::string& name);  // bad_input for others
 std::vector<std::string> view_names();
 
 // Seen from outside, turned to the view: what is to be framed, along its axes.
-struct Frame {
+struct PictureFrame {
   Eigen::Vector3d right, up, back;  // back: towards the eye
   Eigen::Vector3d low, high;        // extent of the scene along them
 };
-Frame frame_of(const Scene& scene, const PictureView& view);
+PictureFrame frame_of(const Scene& scene, const PictureView& view);
 
 struct PictureCamera {
-  Frame frame;
+  PictureFrame frame;
   double width = 1, height = 1;  // pixels
   double metres_per_pixel = 0;   // orthographic: everywhere; perspective: in the plane through the middle
   double eye_distance_m = 0;     // of a perspective eye from the middle; 0: orthographic

@@ -64,7 +64,7 @@ Material read_prospect(const TomlValue& table, MaterialContext& context) {
     double k = 0;
     for (std::size_t i = 0; i < leaf_constituents; ++i)
       if (content[i] > 0) k += content[i] * places[band].of(coefficients.absorption[i]);
-    const LeafOptics leaf =
+    const PlateOptics leaf =
         prospect_leaf(layers, places[band].of(coefficients.refractive_index), k / layers, cone_rad);
     out.reflectance[0][band] = leaf.reflectance;
     out.transmittance[band] = leaf.transmittance;

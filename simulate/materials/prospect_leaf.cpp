@@ -11,14 +11,14 @@ namespace {
 
 // A plate whose upper side lets in `enter` and lets out `leave` of the light, above a lower side for
 // isotropic light: light goes up and down inside, weaker by `through` each time.
-LeafOptics one_plate(double enter, double through, double out_isotropic, double inside_reflectance) {
+PlateOptics one_plate(double enter, double through, double out_isotropic, double inside_reflectance) {
   const double series = 1 - inside_reflectance * inside_reflectance * through * through;
   const double transmittance = enter * through * out_isotropic / series;
   return {1 - enter + inside_reflectance * through * transmittance, transmittance};
 }
 
 // `layers` plates, also a part of one (Stokes 1862).
-LeafOptics stacked(const LeafOptics& plate, double layers) {
+PlateOptics stacked(const PlateOptics& plate, double layers) {
   const double r = plate.reflectance, t = plate.transmittance;
   const double absorbed = 1 - r - t;
   // Without absorption the general form is 0/0, and its error at this limit is of the absorption's order.
@@ -43,13 +43,13 @@ double plate_transmittance(double k) {
   return (1 - k) * std::exp(-k) + k * k * exponential_integral(k);
 }
 
-LeafOptics prospect_leaf(double layers, double n, double k, double cone_rad) {
+PlateOptics prospect_leaf(double layers, double n, double k, double cone_rad) {
   const double through = plate_transmittance(k);
   const double enter = cone_transmittance(pi / 2, n);
   const double leave = enter / (n * n);  // from inside, the rest is reflected
-  const LeafOptics first = one_plate(cone_transmittance(cone_rad, n), through, leave, 1 - leave);
-  const LeafOptics other = one_plate(enter, through, leave, 1 - leave);
-  const LeafOptics below = stacked(other, layers - 1);
+  const PlateOptics first = one_plate(cone_transmittance(cone_rad, n), through, leave, 1 - leave);
+  const PlateOptics other = one_plate(enter, through, leave, 1 - leave);
+  const PlateOptics below = stacked(other, layers - 1);
   const double between = 1 - below.reflectance * other.reflectance;
   return {first.reflectance + first.transmittance * below.reflectance * other.transmittance / between,
           first.transmittance * below.transmittance / between};

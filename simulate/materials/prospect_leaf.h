@@ -17,11 +17,11 @@ inline constexpr std::size_t leaf_constituents = 8;
 // proteins, carbon-based constituents (g cm-2).
 using LeafContent = std::array<double, leaf_constituents>;
 
-struct LeafOptics {
+struct PlateOptics {
   double reflectance, transmittance;
 };
 // k: absorption of one plate, n: refractive index, layers: N >= 1.
 double plate_transmittance(double k);
-LeafOptics prospect_leaf(double layers, double n, double k, double cone_rad);
+PlateOptics prospect_leaf(double layers, double n, double k, double cone_rad);
 
 }  // namespace bpms

@@ -27,10 +27,10 @@ TEST(ExponentialIntegral, HasTheTabulatedValues) {
 }
 
 // Light followed to and fro in one plate.
-LeafOptics plate_by_series(double n, double k) {
+PlateOptics plate_by_series(double n, double k) {
   const double enter = cone_transmittance(cone, n), leave = cone_transmittance(pi / 2, n) / (n * n);
   const double through = plate_transmittance(k);
-  LeafOptics out{1 - enter, 0};
+  PlateOptics out{1 - enter, 0};
   double inside = enter * through;  // at the lower side first
   for (int turn = 0; turn < 400; ++turn) {
     (turn % 2 == 0 ? out.transmittance : out.reflectance) += inside * leave;
@@ -42,7 +42,7 @@ LeafOptics plate_by_series(double n, double k) {
 TEST(Prospect, OfOneLayerIsThePlate) {
   for (const double n : {1.1, 1.3, 1.52})
     for (const double k : {0.0, 1e-4, 0.05, 0.7, 5.0}) {
-      const LeafOptics leaf = prospect_leaf(1, n, k, cone), plate = plate_by_series(n, k);
+      const PlateOptics leaf = prospect_leaf(1, n, k, cone), plate = plate_by_series(n, k);
       EXPECT_NEAR(leaf.reflectance, plate.reflectance, 1e-12) << n << " " << k;
       EXPECT_NEAR(leaf.transmittance, plate.transmittance, 1e-12) << n << " " << k;
     }
@@ -51,16 +51,16 @@ TEST(Prospect, OfOneLayerIsThePlate) {
 TEST(Prospect, OfThreeLayersIsThreePlatesAdded) {
   for (const double k : {1e-6, 0.01, 0.3, 2.0}) {
     const double n = 1.45;
-    const LeafOptics first = prospect_leaf(1, n, k, cone), other = prospect_leaf(1, n, k, pi / 2);
+    const PlateOptics first = prospect_leaf(1, n, k, cone), other = prospect_leaf(1, n, k, pi / 2);
     // Below the first: two more, and then its own transmittance back up, that of isotropic light.
-    const auto add = [](const LeafOptics& top, const LeafOptics& back, const LeafOptics& below) {
+    const auto add = [](const PlateOptics& top, const PlateOptics& back, const PlateOptics& below) {
       const double between = 1 - back.reflectance * below.reflectance;
-      return LeafOptics{
+      return PlateOptics{
           top.reflectance + top.transmittance * below.reflectance * back.transmittance / between,
           top.transmittance * below.transmittance / between};
     };
-    const LeafOptics added = add(first, other, add(other, other, other));
-    const LeafOptics leaf = prospect_leaf(3, n, k, cone);
+    const PlateOptics added = add(first, other, add(other, other, other));
+    const PlateOptics leaf = prospect_leaf(3, n, k, cone);
     EXPECT_NEAR(leaf.reflectance, added.reflectance, 1e-11) << k;
     EXPECT_NEAR(leaf.transmittance, added.transmittance, 1e-11) << k;
   }
@@ -69,15 +69,15 @@ TEST(Prospect, OfThreeLayersIsThreePlatesAdded) {
 TEST(Prospect, LosesNothingWithoutAbsorption) {
   for (const double layers : {1.0, 1.5, 2.3, 5.0})
     for (const double n : {1.0, 1.27, 1.5}) {
-      const LeafOptics clear = prospect_leaf(layers, n, 0, cone);
+      const PlateOptics clear = prospect_leaf(layers, n, 0, cone);
       EXPECT_NEAR(clear.reflectance + clear.transmittance, 1, 1e-9);
       EXPECT_GE(clear.transmittance, 0);
       // And no jump where the general form takes over.
-      const LeafOptics nearly = prospect_leaf(layers, n, 1e-9, cone);
+      const PlateOptics nearly = prospect_leaf(layers, n, 1e-9, cone);
       EXPECT_NEAR(nearly.transmittance, clear.transmittance, 1e-7);
       EXPECT_NEAR(nearly.reflectance, clear.reflectance, 1e-7);
     }
-  const LeafOptics black = prospect_leaf(2, 1.4, 2000, cone);
+  const PlateOptics black = prospect_leaf(2, 1.4, 2000, cone);
   EXPECT_EQ(black.transmittance, 0);
   EXPECT_NEAR(black.reflectance, 1 - cone_transmittance(cone, 1.4), 1e-12);
 }
@@ -114,7 +114,7 @@ TEST_F(ProspectLeaf, HasThePublishedSpectrum) {
     ASSERT_LT(at, table.nm.size());
     double k = 0;
     for (std::size_t i = 0; i < leaf_constituents; ++i) k += content[i] * table.absorption[i][at] / 1.2;
-    const LeafOptics leaf = prospect_leaf(1.2, table.refractive_index[at], k, cone);
+    const PlateOptics leaf = prospect_leaf(1.2, table.refractive_index[at], k, cone);
     EXPECT_NEAR(leaf.reflectance, row.reflectance, 1e-10) << row.nm;
     EXPECT_NEAR(leaf.transmittance, row.transmittance, 1e-10) << row.nm;
   }
