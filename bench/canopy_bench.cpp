@@ -122,6 +122,7 @@ StandTimes measure(const std::string& file) {
   const Stopwatch tracing;
   GapOptions options;
   options.target_se = 0.002;
+  options.rays = 1u << 20;
   const std::vector<Gap> gaps = gap_fraction(rays, gap_directions(ten_angles_deg()), options);
   out.gaps = tracing.processors();
   double worst = 0;
