@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "bench/process_status.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "plant/canopy/overlap.h"
@@ -35,16 +35,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
   std::clock_t clock_ = std::clock();
 };
-
-// A line of /proc/self/status, in MiB.
-double status_mib(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string word; file >> word;) {
-    double kib = 0;
-    if (word == key + ":" && file >> kib) return kib / 1024;
-  }
-  return 0;
-}
 
 // A cereal of one tiller: `leaves` arching blades up the stem, an ear.
 std::string cereal(int leaves, std::uint64_t number) {

@@ -6,9 +6,9 @@
 
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <string>
 
+#include "bench/process_status.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "scene/geometry/assemble.h"
@@ -21,16 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// A line of /proc/self/status, in MiB.
-double status_mib(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string word; file >> word;) {
-    double kib = 0;
-    if (word == key + ":" && file >> kib) return kib / 1024;
-  }
-  return 0;
 }
 
 // Leaves of 8 triangles scattered in a crown of 2 m.

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/skip_blanks.h"
+
 namespace bpms {
 
 std::string read_file(const std::string& path) {
@@ -64,23 +66,27 @@ std::optional<long long> parse_integer(std::string_view text) {
   return value;
 }
 
-TokenReader::TokenReader(std::string file, std::string_view text, std::string_view single)
-    : file_(std::move(file)), text_(text), single_(single) {}
-
-void TokenReader::skip_space() {
-  while (at_ < text_.size()) {
-    const char c = text_[at_];
+void skip_blanks(std::string_view text, std::size_t& at, int& line, int& column) {
+  while (at < text.size()) {
+    const char c = text[at];
     if (c == '#') {
-      while (at_ < text_.size() && text_[at_] != '\n') ++at_, ++column_;
+      while (at < text.size() && text[at] != '\n') ++at, ++column;
     } else if (c == '\n') {
-      ++at_, ++line_;
-      column_ = 1;
+      ++at, ++line;
+      column = 1;
     } else if (c == ' ' || c == '\t' || c == '\r') {
-      ++at_, ++column_;
+      ++at, ++column;
     } else {
       return;
     }
   }
+}
+
+TokenReader::TokenReader(std::string file, std::string_view text, std::string_view single)
+    : file_(std::move(file)), text_(text), single_(single) {}
+
+void TokenReader::skip_space() {
+  skip_blanks(text_, at_, line_, column_);
 }
 
 std::optional<Token> TokenReader::next() {

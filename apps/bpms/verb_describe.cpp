@@ -9,6 +9,7 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/toml.h"
+#include "plant/canopy/overlap.h"
 #include "scene/importers/any_scene.h"
 #include "scene/structure/structure_report.h"
 #include "scene/structure/without_materials.h"
@@ -27,6 +28,7 @@ struct DescribeArguments {
   MeshFileArguments mesh;
   std::vector<std::string> without;  // materials
   bool rays_given = false;
+  bool overlap = false;
 };
 
 std::vector<std::string> pieces(const std::string& text, char separator) {
@@ -124,6 +126,16 @@ void add_fisheye(const DescribeArguments& options, const GapScene& rays, Structu
   report.fisheye = fisheye_picture(rays, report.fisheye_at_m, options.fisheye);
 }
 
+// Of the plants as they were planted: the scene knows them as instances only.
+double canopy_overlap(const std::string& path) {
+  const TomlDocument document = TomlDocument::read(path);
+  if (!document.root().has("planting") && !document.root().has("plants"))
+    bad_input({path}, "--overlap is for a canopy.toml");
+  Canopy canopy = read_canopy(path);
+  make_canopy_meshes(canopy);
+  return overlap_fraction(canopy);
+}
+
 void run(const Cli& cli, DescribeArguments options) {
   options.structure.gaps.seed = cli.common.seed;
   if (!options.zenith.empty())
@@ -140,6 +152,7 @@ void run(const Cli& cli, DescribeArguments options) {
   report.bands = leaf_bands(options, structure.surface, inputs);
   report.scattering = scattering_tables(structure.surface, report.bands, incidence);
   add_fisheye(options, rays, report);
+  if (options.overlap) report.overlap = canopy_overlap(options.file);
   for (const std::string& message : scene.notes) note(message);
   for (const std::string& message : structure.notes) note(message);
   Provenance from = provenance(cli, true);
@@ -187,6 +200,8 @@ void add_describe(Cli& cli) {
   verb->add_option("--tau", options->transmittance, "their transmittance, likewise (default 0)");
   verb->add_option("--materials", options->materials, "a scene.toml whose [materials] and [bands] give both");
   verb->add_option("--incidence", options->incidence, "zenith angles of the light for it (default 0,30,60)");
+  verb->add_flag("--overlap", options->overlap,
+                 "share of the leaf area of a canopy.toml that crosses other plants");
   verb->add_option("--fisheye", options->fisheye,
                    "a hemispherical picture of the gaps in the report, so many pixels wide")
       ->check(CLI::Range(16, 4096));

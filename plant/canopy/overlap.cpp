@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "plant/canopy/plant_shape.h"
@@ -181,6 +182,13 @@ void make_canopy_meshes(Canopy& canopy) {
     CanopyPlant& plant = canopy.plants[i];
     if (!plant.mesh) plant.mesh = std::make_shared<const Mesh>(plant_mesh(*plant.plant));
   });
+}
+
+double overlap_fraction(const Canopy& canopy) {
+  const PlantCrossings crossings(canopy);
+  const std::vector<double> own = crossings.own_m2();
+  const double leaf_m2 = crossings.leaf_area_m2();
+  return leaf_m2 > 0 ? std::accumulate(own.begin(), own.end(), 0.0) / leaf_m2 : 0;
 }
 
 }  // namespace bpms

@@ -42,4 +42,7 @@ class PlantCrossings {
 // Fills in the meshes of the plants that lack one, on all threads.
 void make_canopy_meshes(Canopy& canopy);
 
+// The share of the leaf area on triangles that cross other plants. The plants have their meshes.
+double overlap_fraction(const Canopy& canopy);
+
 }  // namespace bpms

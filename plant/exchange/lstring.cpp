@@ -4,6 +4,7 @@
 #include <iterator>
 #include <set>
 
+#include "core/skip_blanks.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "plant/exchange/lsystem_parts.h"
@@ -25,19 +26,7 @@ bool is_lsystem_letter(char c) {
 }
 
 void LText::skip() {
-  while (at_ < text_.size()) {
-    const char c = text_[at_];
-    if (c == '#') {
-      while (at_ < text_.size() && text_[at_] != '\n') ++at_, ++column_;
-    } else if (c == '\n') {
-      ++at_, ++line_;
-      column_ = 1;
-    } else if (c == ' ' || c == '\t' || c == '\r') {
-      ++at_, ++column_;
-    } else {
-      return;
-    }
-  }
+  skip_blanks(text_, at_, line_, column_);
 }
 
 char LText::peek() {

@@ -317,6 +317,7 @@ Json structure_json(const StructureReport& report) {
                           {"leaves", effective_json(structure.effective_leaves)}};
   out["profile"] = profile_json(structure);
   out["fisheye"] = fisheye_json(report);
+  out["overlap"] = report.overlap ? Json(*report.overlap) : Json(nullptr);
   out["materials"] = materials;
   out["organs"] = organs_json(structure.tables);
   out["species"] = species_json(structure);

@@ -94,6 +94,8 @@ std::string structure_text(const StructureReport& report) {
                    table.band.empty() ? "" : table.band + ": ", table.source_zenith_deg, table.integral);
   if (report.fisheye)
     fmt::format_to(to, "fisheye: {:.4f} of the sky's solid angle is seen\n", report.fisheye->gap_share);
+  if (report.overlap)
+    fmt::format_to(to, "overlap: {:.4f} of the leaf area crosses other plants\n", *report.overlap);
   return out;
 }
 

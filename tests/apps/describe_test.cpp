@@ -57,6 +57,42 @@ TEST(Describe, WritesItsTableAndItsReport) {
   EXPECT_GT(table.rows(), 100u);
 }
 
+// Two upright plates at right angles through each other: all triangles that reach the middle cross. Apart,
+// none does. Without the leaves nothing is left to cross.
+TEST(Describe, TellsOverlapBetweenPlants) {
+  const SoundFolder folder;
+  folder.write("plate.bpms", "units cm\nl\nl { material green a_length 10 a_width 4 }\n");
+  const auto overlap = [&](const std::string& positions) {
+    folder.write("two.toml",
+                 "[domain]\nsize_m = [1, 1]\n[[plants]]\nfile = \"plate.bpms\"\n[planting]\npattern = "
+                 "\"list\"\npositions = " +
+                     positions + "\n");
+    const Outcome run = run_bpms(folder, "describe two.toml --rays 64 --overlap --json");
+    EXPECT_EQ(run.code, 0) << run.error;
+    return Json::parse(run.out).at("overlap").get<double>();
+  };
+  EXPECT_GT(overlap("[[0.005, 0.005, 0, 0], [0, 0, 0, 90]]"), 0.1);
+  EXPECT_EQ(overlap("[[0, 0, 0, 0], [0.3, 0, 0, 90]]"), 0);
+  EXPECT_EQ(run_bpms(folder, "describe plate.bpms --rays 64 --overlap").code, 2);
+}
+
+TEST(Describe, LeavesMaterialsOut) {
+  const SoundFolder folder;
+  folder.write("two.bpms",
+               "units cm\n[l(1)][l(2)]\nl 1 { material green a_length 10 a_width 4 }\n"
+               "l 2 { material dead a_length 5 a_width 4 }\n");
+  const auto area = [&](const std::string& without) {
+    const Outcome run = run_bpms(folder, "describe two.bpms --rays 64 --json " + without);
+    EXPECT_EQ(run.code, 0) << run.error;
+    return Json::parse(run.out).at("leaf_area_m2").get<double>();
+  };
+  EXPECT_NEAR(area(""), 60e-4, 1e-7);
+  EXPECT_NEAR(area("--without dead"), 40e-4, 1e-7);
+  const Outcome wrong = run_bpms(folder, "describe two.bpms --rays 64 --without deed");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.error, HasSubstr("did you mean 'dead'?"));
+}
+
 TEST(Describe, TakesAMeshAsItIs) {
   const SoundFolder folder;
   const Outcome run = run_bpms(folder, "describe leaf.obj --rays 64 --json");

@@ -9,6 +9,7 @@
 #include "plant/plant.h"
 #include "plant/plant_mesh.h"
 #include "tests/data.h"
+#include "tests/plant/plant_text.h"
 
 namespace bpms {
 namespace {
@@ -17,11 +18,6 @@ using enum ErrorKind;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-Plant parse(const std::string& text) {
-  return parse_plant("x.bpms", text);
-}
-#define EXPECT_REFUSED(text, part) BPMS_EXPECT_ERROR(parse(text), bad_input, part)
 
 const std::string frond =
     "organ frond(len, pairs = 3) {\n"
@@ -38,10 +34,11 @@ std::vector<std::string> labels_of(const std::vector<PlacedOrgan>& organs) {
 }
 
 TEST(Compound, PartsAreLabelledAndNumberedInOrder) {
-  const Plant plant = parse(frond +
-                            "[s[+c][c]l]\n"
-                            "s { a_length 10 a_radius 0.2 } + { a_twist 180 } l { a_length 5 a_width 1 }\n"
-                            "c 1 { organ frond len 12 pairs 1 } c 2 { organ frond len 6 pairs (1 + 1) }");
+  const Plant plant =
+      test::plant_of(frond +
+                     "[s[+c][c]l]\n"
+                     "s { a_length 10 a_radius 0.2 } + { a_twist 180 } l { a_length 5 a_width 1 }\n"
+                     "c 1 { organ frond len 12 pairs 1 } c 2 { organ frond len 6 pairs (1 + 1) }");
   EXPECT_THAT(plant.warnings, IsEmpty());
   const std::vector<PlacedOrgan> organs = place_organs(plant);
   EXPECT_THAT(labels_of(organs), ElementsAre("s1", "c1.s1", "c1.l1", "c1.l2", "c1.l3", "c2.s1", "c2.l1",
@@ -66,11 +63,12 @@ TEST(Compound, StandsWhereItsWordWould) {
   const std::string inner =
       "s { a_length 3 a_radius 0.1 f_inclination n 0 10 1 40 } + { a_twist 70 a_inclination 20 }"
       " l { a_length 4 a_width 1 a_inclination 30 }";
-  const Plant compound = parse("organ o { s[+l]l " + inner +
-                               " } [s[+c]s] s { a_length 7 a_radius 0.2 a_inclination 15 } + { a_twist 120 }"
-                               " c { organ o a_inclination 35 a_azimuth 5 a_twist 25 }");
+  const Plant compound =
+      test::plant_of("organ o { s[+l]l " + inner +
+                     " } [s[+c]s] s { a_length 7 a_radius 0.2 a_inclination 15 } + { a_twist 120 }"
+                     " c { organ o a_inclination 35 a_azimuth 5 a_twist 25 }");
   // The constants of the compound organ are a rotation before its word; organs of its own blocks have labels.
-  const Plant plain = parse(
+  const Plant plain = test::plant_of(
       "[s[+(1)[+(2) s(8)[+(3)l(8)]l(8)]]s]\n"
       "s { a_length 7 a_radius 0.2 a_inclination 15 } + 1 { a_twist 120 }"
       " + 2 { a_inclination 35 a_azimuth 5 a_twist 25 } + 3 { a_twist 70 a_inclination 20 }"
@@ -85,7 +83,7 @@ TEST(Compound, StandsWhereItsWordWould) {
 }
 
 TEST(Compound, OrgansOfOrgansNest) {
-  const Plant plant = parse(
+  const Plant plant = test::plant_of(
       "organ pair(w) { [l][+l] l { a_length (2 * w) a_width (w) } + { a_twist 180 } }\n"
       "organ spray(n, w = 1) { <s[c]>(n) s { a_length 2 a_radius 0.1 } c { organ pair w (w / 2) } }\n"
       "[c][c] c 1 { organ spray n 2 } c 2 { organ spray n 1 w 3 }");
@@ -102,16 +100,16 @@ TEST(Compound, OrgansOfOrgansNest) {
 
 TEST(Compound, IsWrittenWithItsNumbersAndReadBack) {
   const Plant plant =
-      parse(frond +
-            "organ frond_2 { l l { a_length 1 a_width 1 } }\n"
-            "[c][c][c][c] c 1 { organ frond len 12 a_twist 20 p_age 3 } c 2 { organ frond len 8 }"
-            " c 3 { organ frond_2 } c 4 { organ frond len 12 }");
+      test::plant_of(frond +
+                     "organ frond_2 { l l { a_length 1 a_width 1 } }\n"
+                     "[c][c][c][c] c 1 { organ frond len 12 a_twist 20 p_age 3 } c 2 { organ frond len 8 }"
+                     " c 3 { organ frond_2 } c 4 { organ frond len 12 }");
   const std::string text = plant_text(plant);
   EXPECT_THAT(text, HasSubstr("organ frond {\ns[+l][+l]s[+l][+l]s[+l][+l]l\ns {\n  a_length 4\n"));
   EXPECT_THAT(text, HasSubstr("c 1 {\n  organ frond\n  a_twist 20\n  p_age 3\n}\n"));
   EXPECT_THAT(text, HasSubstr("c 2 {\n  organ frond_3\n}\n"));  // frond_2 is another's name
   EXPECT_THAT(text, HasSubstr("c 4 {\n  organ frond\n}\n"));
-  const Plant again = parse(text);
+  const Plant again = test::plant_of(text);
   EXPECT_EQ(plant_text(again), text);
   EXPECT_THAT(again.warnings, IsEmpty());
   const std::vector<PlacedOrgan> a = place_organs(plant), b = place_organs(again);
@@ -161,14 +159,14 @@ TEST(Compound, UnusedDefinitionsAreCheckedToo) {
   EXPECT_REFUSED("organ o { l l { a_length (b) } } let b = 3 s",
                  "x.bpms:1:27: semantic error: 'b' is used before its definition at x.bpms:1:38");
   // What depends on a parameter is not known before the organ is used.
-  EXPECT_NO_THROW(
-      parse("organ o(n) { <s>(n) s { a_length (1 / n) f_twist n 0 (n) 1 (sqrt(n)) a_radius (n) } } s"));
+  EXPECT_NO_THROW(test::plant_of(
+      "organ o(n) { <s>(n) s { a_length (1 / n) f_twist n 0 (n) 1 (sqrt(n)) a_radius (n) } } s"));
   EXPECT_REFUSED("organ o(n) { s s { a_length (1 / 0 + n) } } s", "division by zero");
 }
 
 TEST(Compound, ParametersHideConstants) {
-  const Plant plant =
-      parse("let len = 1 organ o(len) { l l { a_length (len) a_width 1 } } c c { organ o len (len + 6) }");
+  const Plant plant = test::plant_of(
+      "let len = 1 organ o(len) { l l { a_length (len) a_width 1 } } c c { organ o len (len + 6) }");
   EXPECT_DOUBLE_EQ(place_organs(plant)[0].attributes->length_m, 0.07);
 }
 
@@ -195,8 +193,8 @@ TEST(Compound, ManyPartsAreRefusedBeforeTheyAreBuilt) {
 }
 
 TEST(Compound, NotesOfItsBlocksAreToldOnce) {
-  const Plant plant =
-      parse("organ o(n) { [l][s] l { a_length (n) } }\n[c][c] c 1 { organ o n 1 } c 2 { organ o n 2 }");
+  const Plant plant = test::plant_of(
+      "organ o(n) { [l][s] l { a_length (n) } }\n[c][c] c 1 { organ o n 1 } c 2 { organ o n 2 }");
   EXPECT_THAT(plant.warnings, ElementsAre("x.bpms:1:18: stem 1 has no block and no extent",
                                           "x.bpms:1:21: this leaf has no a_width and no surface"));
 }

@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "plant/plant.h"
 #include "tests/data.h"
+#include "tests/plant/plant_text.h"
 
 namespace bpms {
 namespace {
@@ -20,7 +21,6 @@ double value_of(const std::string& expression, const std::string& before = "") {
 }
 #define EXPECT_VALUE(expression, value) \
   EXPECT_NEAR(value_of(expression), value, 1e-12 * (1 + std::abs(value))) << (expression)
-#define EXPECT_REFUSED(text, part) BPMS_EXPECT_ERROR(parse_plant("x.bpms", text), bad_input, part)
 
 TEST(Expression, ArithmeticByPrecedence) {
   EXPECT_VALUE("(1 + 2 * 3)", 7.0);

@@ -9,6 +9,7 @@
 #include "plant/leaf_frame.h"
 #include "plant/plant_mesh.h"
 #include "tests/data.h"
+#include "tests/plant/plant_text.h"
 
 namespace bpms {
 namespace {
@@ -17,11 +18,6 @@ using enum ErrorKind;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Pair;
-
-Plant parse(const std::string& text) {
-  return parse_plant("x.bpms", text);
-}
-#define EXPECT_REFUSED(text, part) BPMS_EXPECT_ERROR(parse(text), bad_input, part)
 
 double volume_m3(const Mesh& mesh) {
   double out = 0;
@@ -33,7 +29,7 @@ double volume_m3(const Mesh& mesh) {
 }
 
 TEST(Properties, AreCarriedToTheMesh) {
-  const Plant plant = parse(
+  const Plant plant = test::plant_of(
       "organ o { [l][l] l 1 { a_length 1 a_width 1 p_age_d 7 } l 2 { a_length 1 a_width 1 } }\n"
       "[s][l]c s { a_length 3 a_radius 1 p_age_d 12 p_water_status low p_note \"a \\\"b\\\" # c\" }\n"
       "l { a_length 2 a_width 1 } c { organ o p_age_d 3 p_rank (2 * 4) }");
@@ -63,7 +59,7 @@ TEST(Properties, AreCheckedWhereTheyStand) {
 }
 
 TEST(Parameters, AreTheAttributesAsThePlantIsWritten) {
-  const Plant plant = parse(
+  const Plant plant = test::plant_of(
       "units mm l l { material green a_length 100 a_width (2 * 5) a_inclination 20 a_senescent 0.25"
       " f_twist n 0 0 1 90 p_x 1 }");
   const Mesh mesh = plant_mesh(plant, {1e-3, true});
@@ -85,9 +81,9 @@ TEST(Senescence, CutsTheLeafExactly) {
                         {"f_curvature n 0 60 1 60", 0.999999, 3 * 0.999999 * 10},
                         {"f_inclination p 0 10 20 30", 1e-5, 3 * 1e-5 * 10}}) {
     const Plant plant =
-        parse(fmt::format("[l][s] l {{ a_length 10 a_width 3 a_senescent {} {} }}"
-                          " s {{ a_length 1 a_radius 0.1 }}",
-                          c.fraction, c.attributes));
+        test::plant_of(fmt::format("[l][s] l {{ a_length 10 a_width 3 a_senescent {} {} }}"
+                                   " s {{ a_length 1 a_radius 0.1 }}",
+                                   c.fraction, c.attributes));
     const Mesh mesh = plant_mesh(plant);
     ASSERT_EQ(mesh.organs.size(), 3u);
     const Mesh::Organ &green = mesh.organs[0], &dead = mesh.organs[1];
@@ -120,27 +116,28 @@ TEST(Senescence, CutsTheLeafExactly) {
 }
 
 TEST(Senescence, HasItsMaterialAndItsLimits) {
-  const Plant plant = parse("l l { a_length 10 a_width 3 a_senescent 1 senescent_material straw p_x 1 }");
+  const Plant plant =
+      test::plant_of("l l { a_length 10 a_width 3 a_senescent 1 senescent_material straw p_x 1 }");
   const Mesh mesh = plant_mesh(plant);
   ASSERT_EQ(mesh.organs.size(), 1u);
   EXPECT_EQ(mesh.organs[0].material, "straw");
-  EXPECT_EQ(plant_mesh(parse("l l { a_length 10 a_width 3 a_senescent 0 }")).organs.size(), 1u);
-  const Mesh half = plant_mesh(parse("l l { a_length 10 a_width 3 a_senescent 0.5 p_x 1 }"));
+  EXPECT_EQ(plant_mesh(test::plant_of("l l { a_length 10 a_width 3 a_senescent 0 }")).organs.size(), 1u);
+  const Mesh half = plant_mesh(test::plant_of("l l { a_length 10 a_width 3 a_senescent 0.5 p_x 1 }"));
   EXPECT_EQ(half.organs[1].properties, half.organs[0].properties);
   EXPECT_REFUSED("l l { a_senescent 1.5 }",
                  "x.bpms:1:19: semantic error: a_senescent is 1.5, expected a number from 0 to 1");
   EXPECT_REFUSED("l l { a_senescent -0.1 }", "a_senescent is -0.1");
   EXPECT_REFUSED("s s { a_senescent 0.1 }", "a stem has no a_senescent");
   EXPECT_THAT(
-      parse("l l { a_length 10 a_width 3 senescent_material straw }").warnings,
+      test::plant_of("l l { a_length 10 a_width 3 senescent_material straw }").warnings,
       ElementsAre("x.bpms:1:29: a senescent material, but no a_senescent: nothing of the leaf has it"));
 }
 
 TEST(Joint, IsASphereAtTheStemsTip) {
   const double tolerance = 1e-5, radius = 0.005, length = 0.1, joint = 1.5 * 0.8 * radius;
   const std::string stem = "units cm s s { a_length 10 a_radius 0.5 f_width n 0 1 1 0.8";
-  const Mesh bare = plant_mesh(parse(stem + " }"), {tolerance});
-  const Mesh mesh = plant_mesh(parse(stem + " a_joint 1.5 }"), {tolerance});
+  const Mesh bare = plant_mesh(test::plant_of(stem + " }"), {tolerance});
+  const Mesh mesh = plant_mesh(test::plant_of(stem + " a_joint 1.5 }"), {tolerance});
   ASSERT_EQ(mesh.organs.size(), 1u);
   const double sphere_m2 = 4 * pi * joint * joint;
   EXPECT_NEAR(mesh.organs[0].area_m2 - bare.organs[0].area_m2, sphere_m2, 0.005 * sphere_m2);
@@ -157,7 +154,8 @@ TEST(Joint, IsASphereAtTheStemsTip) {
   for (std::size_t v = bare.positions_m.size(); v < mesh.positions_m.size(); ++v)
     EXPECT_EQ(mesh.uv[v].x(), 1);
   // At the tip of a bent stem.
-  const Plant bent = parse("units m s s { a_length 1 a_radius 0.01 a_joint 2 f_inclination n 0 0 1 90 }");
+  const Plant bent =
+      test::plant_of("units m s s { a_length 1 a_radius 0.01 a_joint 2 f_inclination n 0 0 1 90 }");
   Eigen::Vector3d low = Eigen::Vector3d::Constant(10), high = -low;
   const Mesh bent_mesh = plant_mesh(bent, {tolerance});
   for (std::size_t v = 0; v < bent_mesh.positions_m.size(); ++v) {
@@ -167,7 +165,7 @@ TEST(Joint, IsASphereAtTheStemsTip) {
   }
   const double tip = 2 / pi;
   EXPECT_LT(((low + high) / 2 - Eigen::Vector3d(tip, 0, tip)).norm(), 10 * tolerance);
-  EXPECT_THAT(parse("s s { a_length 1 a_radius 0.1 f_width n 0 1 1 0 a_joint 1 }").warnings,
+  EXPECT_THAT(test::plant_of("s s { a_length 1 a_radius 0.1 f_width n 0 1 1 0 a_joint 1 }").warnings,
               ElementsAre("x.bpms:1:49: the stem ends in a point, where a joint has no size"));
   EXPECT_REFUSED("l l { a_joint 1 }", "a leaf has no a_joint");
   EXPECT_REFUSED("s s { a_joint -1 }", "a_joint is -1, expected a number from 0 to 100");
@@ -176,7 +174,7 @@ TEST(Joint, IsASphereAtTheStemsTip) {
 TEST(Stem, OfVaryingRadiusIsAFrustum) {
   const double tolerance = 1e-5, length = 0.12, r = 0.01, q = 0.004;
   const Mesh mesh =
-      plant_mesh(parse("units cm s s { a_length 12 a_radius 1 f_width n 0 1 1 0.4 }"), {tolerance});
+      plant_mesh(test::plant_of("units cm s s { a_length 12 a_radius 1 f_width n 0 1 1 0.4 }"), {tolerance});
   const double area = pi * (r + q) * std::hypot(length, r - q) + pi * (r * r + q * q);
   const double volume = pi * length / 3 * (r * r + r * q + q * q);
   // The polygon's circumference is the circle's; its area is larger by twice the part that the tolerance
@@ -187,7 +185,7 @@ TEST(Stem, OfVaryingRadiusIsAFrustum) {
 
 TEST(Stem, BentIntoAnArcIsAPieceOfATorus) {
   const double tolerance = 1e-5, length = 0.2, r = 0.01;
-  const Plant plant = parse("units cm s s { a_length 20 a_radius 1 f_inclination n 0 0 1 90 }");
+  const Plant plant = test::plant_of("units cm s s { a_length 20 a_radius 1 f_inclination n 0 0 1 90 }");
   const Mesh mesh = plant_mesh(plant, {tolerance});
   // Pappus: what the section's circle and disc sweep along their centre's path.
   EXPECT_NEAR(mesh.organs[0].area_m2, 2 * pi * r * length + 2 * pi * r * r,

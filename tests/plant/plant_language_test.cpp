@@ -5,6 +5,7 @@
 #include "core/units.h"
 #include "plant/plant.h"
 #include "tests/data.h"
+#include "tests/plant/plant_text.h"
 
 namespace bpms {
 namespace {
@@ -13,11 +14,6 @@ using enum ErrorKind;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-Plant parse(const std::string& text, bool lenient = false) {
-  return parse_plant("x.bpms", text, {lenient});
-}
-#define EXPECT_REFUSED(text, part) BPMS_EXPECT_ERROR(parse(text), bad_input, part)
 
 std::string word_of(const Plant& plant) {
   const std::string text = plant_text(plant);
@@ -34,7 +30,7 @@ std::vector<int> blocks_of(const Plant& plant, OrganKind kind) {
 const std::string leaf = " a_length 10 a_width 1 ";
 
 TEST(PlantLanguage, ReadsThePapersLeaf) {
-  const Plant plant = parse(
+  const Plant plant = test::plant_of(
       "l\nl 1 {\nmaterial      leaf\na_length     10.0\na_width      3.0\nf_inclination n 0 0 1 180\n"
       "f_azimuth    n 0 0 1 0\nf_twist      n 0 0 1 0\nf_curvature  n 0 30 1 30\n}\n");
   ASSERT_EQ(plant.blocks.size(), 1u);
@@ -50,17 +46,18 @@ TEST(PlantLanguage, ReadsThePapersLeaf) {
 }
 
 TEST(PlantLanguage, ReadsUnitsCommentsAndTightLayouts) {
-  EXPECT_DOUBLE_EQ(parse("units mm s s{a_length 5 a_radius 1}").blocks[0].attributes.length_m, 0.005);
-  EXPECT_DOUBLE_EQ(parse("units m # metres\n s # word\n s { # block\n a_length 5 a_radius 1 }")
+  EXPECT_DOUBLE_EQ(test::plant_of("units mm s s{a_length 5 a_radius 1}").blocks[0].attributes.length_m,
+                   0.005);
+  EXPECT_DOUBLE_EQ(test::plant_of("units m # metres\n s # word\n s { # block\n a_length 5 a_radius 1 }")
                        .blocks[0]
                        .attributes.length_m,
                    5);
-  const Plant plant = parse("[s [+l(3)] [ + l( 4 ) ]\n s h]\nl 5{" + leaf + "}", false);
+  const Plant plant = test::plant_of("[s [+l(3)] [ + l( 4 ) ]\n s h]\nl 5{" + leaf + "}", false);
   EXPECT_EQ(word_of(plant), "[s[+l(3)][+l(4)]sh]");
 }
 
 TEST(PlantLanguage, AttributesOnOneLineInAnyOrder) {
-  const Plant plant = parse(
+  const Plant plant = test::plant_of(
       "l l { f_twist f 10 -10 f_width n 0 1 1 0 a_width 2 material m_1.x-y a_inclination -30 a_length 1e1 }");
   const OrganAttributes& a = plant.blocks[0].attributes;
   EXPECT_EQ(a.material, "m_1.x-y");
@@ -75,12 +72,12 @@ TEST(PlantLanguage, UnbalancedBracketsAreLocatedWithAHint) {
   EXPECT_REFUSED(printed, "--lenient");
   EXPECT_REFUSED("s\n [s[+l] l { }", "x.bpms:2:2: syntax error: bracket opened at column 2");
   EXPECT_REFUSED("[s]] s { }", "x.bpms:1:4: syntax error: ']' closes a bracket that was never opened");
-  const Plant repaired = parse(printed, true);
+  const Plant repaired = test::plant_of(printed, true);
   EXPECT_EQ(word_of(repaired), printed + "]");
   EXPECT_THAT(repaired.warnings,
               testing::Contains(
                   HasSubstr("x.bpms:1:1: bracket opened at column 1 is never closed; closed at the end")));
-  BPMS_EXPECT_ERROR(parse("s]", true), bad_input, "never opened");  // lenient invents no brackets
+  BPMS_EXPECT_ERROR(test::plant_of("s]", true), bad_input, "never opened");  // lenient invents no brackets
 }
 
 TEST(PlantLanguage, NothingGrowsFromLeavesAndHeads) {
@@ -89,8 +86,8 @@ TEST(PlantLanguage, NothingGrowsFromLeavesAndHeads) {
                  "x.bpms:1:2: semantic error: 'l' after 'h' in the same bracket: nothing grows from a head");
   EXPECT_REFUSED("l+", "semantic error: '+' after 'l'");
   EXPECT_REFUSED("s[l[s]]", "x.bpms:1:5: semantic error: 's' after 'l'");
-  EXPECT_THAT(word_of(parse("[[l]s[+l][h]]")), "[[l]s[+l][h]]");
-  EXPECT_THAT(word_of(parse("[sl[]]")), "[sl[]]");
+  EXPECT_THAT(word_of(test::plant_of("[[l]s[+l][h]]")), "[[l]s[+l][h]]");
+  EXPECT_THAT(word_of(test::plant_of("[sl[]]")), "[sl[]]");
 }
 
 TEST(PlantLanguage, SyntaxErrorsInTheWord) {
@@ -159,48 +156,50 @@ TEST(PlantLanguage, SemanticErrorsInBlocks) {
   EXPECT_REFUSED("+ + { material leaf }", "semantic error: a rotation has no material");
   EXPECT_REFUSED("b b { f_twist p 1 }", "semantic error: a bud has no f_twist");
   // a_width is what f_width scales: the two belong together.
-  EXPECT_NO_THROW(parse("l l { a_length 3 a_width 3 f_width p 1 }"));
+  EXPECT_NO_THROW(test::plant_of("l l { a_length 3 a_width 3 f_width p 1 }"));
 }
 
 TEST(PlantLanguage, BlocksBelongToLabelsElseToOrdinalsElseToAll) {
   const std::string blocks = "l { " + leaf + "} l 2 { " + leaf + "} l 7 { " + leaf + "}";
-  EXPECT_THAT(blocks_of(parse("[l][l][l]" + ("\n" + blocks)), OrganKind::leaf), ElementsAre(0, 1, 0));
+  EXPECT_THAT(blocks_of(test::plant_of("[l][l][l]" + ("\n" + blocks)), OrganKind::leaf),
+              ElementsAre(0, 1, 0));
   // Two organs share label 7; number 2 labels nothing, so it is the second leaf of all.
-  EXPECT_THAT(blocks_of(parse("[l(7)][l][l(7)]\n" + blocks), OrganKind::leaf), ElementsAre(2, 1, 2));
+  EXPECT_THAT(blocks_of(test::plant_of("[l(7)][l][l(7)]\n" + blocks), OrganKind::leaf), ElementsAre(2, 1, 2));
   // Number 2 labels the first leaf: the second one falls back to the block for all.
-  EXPECT_THAT(blocks_of(parse("[l(2)][l][l(7)]\n" + blocks), OrganKind::leaf), ElementsAre(1, 0, 2));
+  EXPECT_THAT(blocks_of(test::plant_of("[l(2)][l][l(7)]\n" + blocks), OrganKind::leaf), ElementsAre(1, 0, 2));
   // A label without a block of its own leaves the ordinal.
-  EXPECT_THAT(blocks_of(parse("[l][l(9)][l]\n" + blocks), OrganKind::leaf), ElementsAre(0, 1, 0));
+  EXPECT_THAT(blocks_of(test::plant_of("[l][l(9)][l]\n" + blocks), OrganKind::leaf), ElementsAre(0, 1, 0));
   // Ordinals count each letter by itself.
-  EXPECT_THAT(
-      blocks_of(parse("s[+l]s[+l]\nl 2 {" + leaf + "} s 2 { a_length 1 a_radius 1 }"), OrganKind::stem),
-      ElementsAre(-1, 1));
+  EXPECT_THAT(blocks_of(test::plant_of("s[+l]s[+l]\nl 2 {" + leaf + "} s 2 { a_length 1 a_radius 1 }"),
+                        OrganKind::stem),
+              ElementsAre(-1, 1));
 }
 
 TEST(PlantLanguage, NotesWhatIsUnusedMissingOrAmbiguous) {
-  EXPECT_THAT(parse("[l][l]\nl 1 {" + leaf + "}").warnings,
+  EXPECT_THAT(test::plant_of("[l][l]\nl 1 {" + leaf + "}").warnings,
               ElementsAre("x.bpms:1:5: leaf 2 has no block and no extent"));
-  EXPECT_THAT(parse("+l\nl {" + leaf + "}").warnings,
+  EXPECT_THAT(test::plant_of("+l\nl {" + leaf + "}").warnings,
               ElementsAre("x.bpms:1:1: rotation 1 has no block and turns nothing"));
-  EXPECT_THAT(parse("l\nl {" + leaf + "}\nl 5 {" + leaf + "}").warnings,
+  EXPECT_THAT(test::plant_of("l\nl {" + leaf + "}\nl 5 {" + leaf + "}").warnings,
               ElementsAre("x.bpms:3:1: nothing uses the block 'l 5'"));
-  EXPECT_THAT(parse("[l][l(1)]\nl {" + leaf + "}").warnings,
+  EXPECT_THAT(test::plant_of("[l][l(1)]\nl {" + leaf + "}").warnings,
               ElementsAre(HasSubstr(
                   "x.bpms:1:5: 1 is a label here and also the ordinal of another leaf (line 1, column 2)")));
-  EXPECT_THAT(parse("[l(1)][l]\nl {" + leaf + "}").warnings, IsEmpty());  // its own ordinal: no ambiguity
-  EXPECT_THAT(parse("l\nl { a_length 3 }").warnings,
+  EXPECT_THAT(test::plant_of("[l(1)][l]\nl {" + leaf + "}").warnings,
+              IsEmpty());  // its own ordinal: no ambiguity
+  EXPECT_THAT(test::plant_of("l\nl { a_length 3 }").warnings,
               ElementsAre("x.bpms:2:1: this leaf has no a_width and no surface"));
   const std::string bare = " { a_length 3 }\n";
-  EXPECT_THAT(parse("[l][l][l]\nl 1" + bare + "l 2" + bare + "l 3" + bare).warnings,
+  EXPECT_THAT(test::plant_of("[l][l][l]\nl 1" + bare + "l 2" + bare + "l 3" + bare).warnings,
               ElementsAre("x.bpms:2:1: this leaf has no a_width and no surface; the same at lines 3, 4"));
-  EXPECT_THAT(parse("units m\nl\nl { a_length 1.2 a_width 0.1 }").warnings,
+  EXPECT_THAT(test::plant_of("units m\nl\nl { a_length 1.2 a_width 0.1 }").warnings,
               ElementsAre("x.bpms:3:5: a leaf 1.2 m long; is the unit ('units m') right? With 'units cm' it "
                           "would be 1.2 cm"));
-  EXPECT_THAT(parse("units m\nl\nl { a_length 1 a_width 0.1 }").warnings, IsEmpty());
+  EXPECT_THAT(test::plant_of("units m\nl\nl { a_length 1 a_width 0.1 }").warnings, IsEmpty());
 }
 
 TEST(PlantLanguage, NotesSizesThatNoPlantHas) {
-  const auto notes = [](const std::string& text) { return parse(text).warnings; };
+  const auto notes = [](const std::string& text) { return test::plant_of(text).warnings; };
   // The unit that changes the number least is the one proposed.
   EXPECT_THAT(
       notes("units m l l {\n a_length 25 a_width 0.5 }"),
@@ -238,7 +237,7 @@ TEST(PlantLanguage, TheExamplesRead) {
 }
 
 TEST(PlantLanguage, WritesTheCanonicalText) {
-  const Plant plant = parse(
+  const Plant plant = test::plant_of(
       "# c\n[s[+l(2)]] s{a_radius 0.1 a_length 12.0} l 2{f_twist f 10 -10 a_width 1.2 a_length 25 material "
       "leaf}+ 1 {a_twist 180}");
   EXPECT_EQ(plant_text(plant),
