@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "plant/geometry/subdivide.h"
 
 namespace bpms {
 namespace {
@@ -39,9 +40,8 @@ class AxisSweep {
       : nodes_(nodes), organs_(organs), options_(options), mesh_(mesh) {
     double widest = 0;
     for (const AxisNode& node : nodes) widest = std::max(widest, node.radius_m);
-    const double sagitta = std::min(1.0, options.tolerance_m / std::max(widest, 1e-9));
     constexpr int least_sides = 6, most_sides = 64;
-    sides_ = std::clamp(static_cast<int>(std::ceil(pi / std::acos(1 - sagitta))), least_sides, most_sides);
+    sides_ = circle_sides(widest, options.tolerance_m, least_sides, most_sides);
   }
 
   void add() {

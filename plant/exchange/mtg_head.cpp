@@ -69,8 +69,10 @@ class MtgHead {
  private:
   // The next line with something in it.
   std::vector<MtgCell> row(const char* expected) {
-    while (lines_.next())
-      if (!lines_.blank()) return lines_.cells(true);
+    while (lines_.next()) {
+      std::vector<MtgCell> cells = lines_.cells(true);
+      if (!cells.empty()) return cells;  // not even when it is a comment behind spaces
+    }
     bad_input(lines_.where(), "the file ends where {} was expected", expected);
   }
   // "CODE:", "CODE :", "CODE"

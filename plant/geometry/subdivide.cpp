@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/units.h"
 #include "plant/leaf_frame.h"
 
 namespace bpms {
@@ -57,6 +58,12 @@ double distance_from_line(const Eigen::Vector3d& point, const Eigen::Vector3d& a
   const double length = along.norm();
   if (length < 1e-12) return (point - a).norm();
   return (point - a).cross(along).norm() / length;
+}
+
+int circle_sides(double radius_m, double tolerance_m, int least, int most) {
+  const double sagitta = std::min(1.0, tolerance_m / std::max(radius_m, 1e-9));
+  // Within bounds before it is a whole number: of a circle without end it is infinite.
+  return static_cast<int>(std::clamp(std::ceil(pi / std::acos(1 - sagitta)), 1.0 * least, 1.0 * most));
 }
 
 }  // namespace bpms

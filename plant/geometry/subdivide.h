@@ -16,6 +16,9 @@ std::vector<double> first_nodes(const OrganAttributes& organ, double least_gap);
 // The nodes and the quarter points between them.
 std::vector<double> with_quarters(const std::vector<double>& nodes);
 
+// Sides of a polygon that stays within the tolerance of a circle (its sagitta).
+int circle_sides(double radius_m, double tolerance_m, int least, int most);
+
 // Distance of a point from the line through two others (from the point they share when they coincide).
 double distance_from_line(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "plant/geometry/mesh_parts.h"
+#include "plant/geometry/subdivide.h"
 #include "plant/geometry/swept_body.h"
 
 namespace bpms {
@@ -100,9 +101,7 @@ OrganMesh swept_mesh(OrganKind kind, const OrganAttributes& organ, double tolera
   const std::vector<Ring> nodes = ring_nodes(body, tolerance_m / 2);
   double widest = 0;
   for (const Ring& ring : nodes) widest = std::max(widest, ring.radius_m);
-  const double sagitta = std::min(1.0, tolerance_m / 2 / std::max(widest, 1e-9));
-  const int sides =
-      std::clamp(static_cast<int>(std::ceil(pi / std::acos(1 - sagitta))), least_sides, most_sides);
+  const int sides = circle_sides(widest, tolerance_m / 2, least_sides, most_sides);
   return Sweeper(body, sides).mesh(nodes, body.point_below_m());
 }
 

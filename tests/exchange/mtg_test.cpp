@@ -48,6 +48,12 @@ std::string relation(const Mtg& mtg, int v) {
          name(vertex.complex);
 }
 
+TEST(Mtg, PassesCommentsBehindSpaces) {
+  const std::string text = std::string("  # digitised in spring\n\r#\r\n") + head + "/P1\n";
+  EXPECT_EQ(parse_mtg("a.mtg", text).vertices.size(),
+            parse_mtg("a.mtg", head + std::string("/P1\n")).vertices.size());
+}
+
 TEST(Mtg, TopologyByHand) {
   const Mtg mtg = with_entities(
       "/P1\n"

@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "plant/geometry/leaf_surface.h"
 #include "plant/geometry/mesh_parts.h"
+#include "plant/geometry/subdivide.h"
 #include "plant/plant_mesh.h"
 #include "tests/data.h"
 
@@ -240,6 +241,16 @@ TEST(PlantMesh, KeepsOrganMaterialAndUv) {
   for (std::size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(areas[i], mesh.organs[i].area_m2, 1e-9);
   for (const Eigen::Vector2f& uv : mesh.uv) EXPECT_TRUE((uv.array() >= 0).all() && (uv.array() <= 1).all());
   EXPECT_DOUBLE_EQ(mesh.organs[3].length_m, 0.08);
+}
+
+TEST(CircleSides, StayWithinTheToleranceAndTheirBounds) {
+  for (const double radius : {1e-3, 0.1, 7.0}) {
+    const int sides = circle_sides(radius, 1e-4, 3, 100000);
+    EXPECT_LE(radius * (1 - std::cos(pi / sides)), 1e-4 * (1 + 1e-9));
+    EXPECT_GT(radius * (1 - std::cos(pi / (sides - 1))), 1e-4);  // one less would not do
+  }
+  EXPECT_EQ(circle_sides(1e-6, 1e-4, 6, 64), 6);
+  EXPECT_EQ(circle_sides(8.9e21, 1e-4, 6, 64), 64);
 }
 
 }  // namespace
