@@ -11,6 +11,8 @@
 namespace bpms {
 namespace {
 
+constexpr double turtle_reach_m = 1e7;
+
 struct TurtleState {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Matrix3d frame;  // columns H, L, U
@@ -34,7 +36,7 @@ class StringTurtle {
         metres_(metres_per_unit(string.settings.unit, {})),
         width_metres_(metres_per_unit(string.settings.width_unit, {})) {
     state_.frame << 0, -1, 0, 0, 0, -1, 1, 0, 0;  // H = z, L = -x, U = -y
-    state_.radius_m = string.settings.width / 2 * width_metres_;
+    set_width(string.settings.width);
     Mtg& mtg = out_.mtg;
     mtg.file = string.file;
     plant_ = mtg.class_number("P", 1);
@@ -77,7 +79,7 @@ class StringTurtle {
         state_.axis = -1;
         break;
       case '!':
-        state_.radius_m = std::abs(parameter(module, usual.width)) / 2 * width_metres_;
+        set_width(parameter(module, usual.width));
         break;
       case '+':
         turn(0, 1, angle);
@@ -124,6 +126,11 @@ class StringTurtle {
     }
   }
 
+  void set_width(double width) {
+    state_.radius_m = std::abs(width) / 2 * width_metres_;
+    if (!(state_.radius_m < turtle_reach_m)) bad_input({string_.file}, "a segment is wider than 1e7 m");
+  }
+
   // Turns axis `from` towards axis `to` of the frame.
   void turn(int from, int to, double angle) {
     const Eigen::Vector3d a = state_.frame.col(from), b = state_.frame.col(to);
@@ -168,8 +175,7 @@ class StringTurtle {
   void forward(double length_m) {
     const Eigen::Vector3d from = state_.position;
     state_.position += length_m * state_.frame.col(0);
-    constexpr double farthest_m = 1e7;
-    if (!(state_.position.cwiseAbs().maxCoeff() < farthest_m))
+    if (!(state_.position.cwiseAbs().maxCoeff() < turtle_reach_m))
       bad_input({string_.file}, "the turtle goes beyond 1e7 m");
     if (!corners_.empty() || length_m == 0) return;  // inside of a polygon only places count
     char edge = '<';

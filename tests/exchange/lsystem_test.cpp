@@ -206,5 +206,10 @@ TEST(LSystem, MistakesAreLocated) {
     BPMS_EXPECT_ERROR(parse_lstring("t.lstr", text), bad_input, says);
 }
 
+TEST(Turtle, RefusesWhatNoPlantReaches) {
+  BPMS_EXPECT_ERROR(turtle(parse_lstring("t.lstr", "F(2e9)")), bad_input, "goes beyond 1e7 m");
+  BPMS_EXPECT_ERROR(turtle(parse_lstring("t.lstr", "!(9e44)F(1)")), bad_input, "wider than 1e7 m");
+}
+
 }  // namespace
 }  // namespace bpms
