@@ -19,7 +19,7 @@ struct StructureReport {
   std::vector<ScatteringTable> scattering;
   std::optional<FisheyePicture> fisheye;
   Eigen::Vector2d fisheye_at_m = Eigen::Vector2d::Zero();
-  std::optional<double> overlap;  // between plants: share of the leaf area (plant/canopy/overlap.h)
+  std::optional<double> overlap = {};  // between plants: share of the leaf area (plant/canopy/overlap.h)
 };
 
 // Of plants, the first thousand; the CSV has all.
