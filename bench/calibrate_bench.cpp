@@ -12,8 +12,8 @@
 #include <opencv2/calib3d.hpp>
 #include <vector>
 
+#include "calibrate/adjustment/synthetic.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/synthetic.h"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "calibrate/initial_estimate.h"
-#include "calibrate/outliers.h"
-#include "calibrate/uncertainty.h"
+#include "calibrate/adjustment/initial_estimate.h"
+#include "calibrate/adjustment/outliers.h"
+#include "calibrate/adjustment/uncertainty.h"
 #include "core/text.h"
 
 namespace bpms {
@@ -216,7 +216,7 @@ Calibration calibrate(const Observations& observations, const Target& target,
   require_views(observations);
   const std::vector<std::string> frames = frame_names(observations);
   BundleProblem problem = make_problem(observations, target, frames, options.board_warp);
-  BundleState state = initial_estimate(problem, observations.cameras, options.parameters);
+  BundleState state = initial_estimate(problem, observations.cameras, lens_choice(options.lens));
   const OutlierSearch search =
       fit_without_outliers(problem, static_cast<int>(observations.views.size()), state);
   const NormalEquations equations = normal_equations(problem, state);

@@ -9,14 +9,14 @@
 
 #include "calibrate/observations.h"
 #include "calibrate/rig.h"
-#include "calibrate/target.h"
+#include "calibrate/targets/target.h"
 
 namespace bpms {
 
 struct CalibrateOptions {
-  int parameters = 8;       // of each lens: 8, 9 or 12 (brown4, brown5, brown8)
-  bool board_warp = true;   // estimate the board's bending
-  bool uncertainty = true;  // clustered sigmas and half sets: a solve for every frame left out
+  std::string lens = "brown4";  // of all cameras: a choice of calibrate/lenses/lens.h
+  bool board_warp = true;       // estimate the board's bending
+  bool uncertainty = true;      // clustered sigmas and half sets: a solve for every frame left out
 };
 
 struct Calibration {

@@ -17,6 +17,7 @@ struct BoardView {
   int camera = 0;     // index into Observations::cameras
   std::string frame;  // digits of the file name
   std::vector<ImageCorner> corners;
+  int target = 0;  // index into the targets; an image that shows several has a view of each
 };
 
 struct Observations {

@@ -18,8 +18,10 @@ struct Camera {
   int width_px = 0;
   int height_px = 0;
   std::string model = "brown_conrady";
-  // brown_conrady: fx fy cx cy [k1 k2 p1 p2 [k3 [k4 k5 k6]]], OpenCV's order (4, 8, 9 or 12 numbers).
+  // fx fy cx cy, then what the model (calibrate/lenses/) has. brown_conrady: [k1 k2 p1 p2 [k3 [k4 k5 k6]]],
+  // OpenCV's order.
   std::vector<double> parameters;
+  std::vector<double> constants = {};  // what the model is set up with; most have none
   Eigen::Matrix3d r_cam_from_rig = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t_cam_from_rig_m = Eigen::Vector3d::Zero();
   std::map<std::string, std::string> identity;  // serial, lens, focus, aperture, date, ...

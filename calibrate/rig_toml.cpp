@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "calibrate/brown_conrady.h"
+#include "calibrate/lenses/lens.h"
 #include "calibrate/rig.h"
 #include "core/toml.h"
 
@@ -40,13 +40,16 @@ Camera read_camera(const TomlValue& table) {
   if (!size.is_array() || size.size() != 2) size.reject("expected [width, height]");
   camera.width_px = static_cast<int>(size[0].integer(1, largest_image_px));
   camera.height_px = static_cast<int>(size[1].integer(1, largest_image_px));
-  camera.model = table.require("model").one_of({"brown_conrady"});
+  camera.model = table.require("model").one_of(lens_models());
   const TomlValue parameters = table.require("parameters");
   camera.parameters = parameters.numbers();
-  if (!brown_conrady::known_count(static_cast<int>(camera.parameters.size())))
-    parameters.reject(
-        fmt::format("{} parameters; expected 4, 8, 9 or 12: fx fy cx cy [k1 k2 p1 p2 [k3 [k4 k5 k6]]]",
-                    camera.parameters.size()));
+  if (const TomlValue constants = table.get("constants")) camera.constants = constants.numbers();
+  const Lens& lens = *find_lens(camera.model);
+  if (lens.parameter_names({camera.parameters, camera.constants}).empty())
+    parameters.reject(fmt::format(
+        "{} parameters{}; expected {}", camera.parameters.size(),
+        camera.constants.empty() ? "" : fmt::format(" with {} constants", camera.constants.size()),
+        lens.expected_numbers()));
   parameters[0].positive();
   parameters[1].positive();
   read_pose(table.require("cam_from_rig"), camera);
@@ -121,6 +124,11 @@ std::string camera_toml(const Camera& camera) {
          numbers(Eigen::Map<const Eigen::VectorXd>(camera.parameters.data(),
                                                    static_cast<Eigen::Index>(camera.parameters.size()))) +
          "\n";
+  if (!camera.constants.empty())
+    out += "constants = " +
+           numbers(Eigen::Map<const Eigen::VectorXd>(camera.constants.data(),
+                                                     static_cast<Eigen::Index>(camera.constants.size()))) +
+           "\n";
   Eigen::Matrix<double, 3, 4> pose;
   pose << camera.r_cam_from_rig, camera.t_cam_from_rig_m;
   out += "cam_from_rig = [" + numbers(pose.row(0)) + ",\n                " + numbers(pose.row(1)) +

@@ -5,7 +5,7 @@
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/chessboard_detector.h"
+#include "calibrate/images/find_corners.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -23,13 +23,6 @@ struct CalibrateArguments {
 
 Json vector(const Eigen::Vector3d& v) {
   return {json_number(v.x()), json_number(v.y()), json_number(v.z())};
-}
-
-int parameters_of_model(const std::string& model) {
-  if (model == "brown4") return 8;
-  if (model == "brown5") return 9;
-  if (model == "brown8") return 12;
-  bad_input({}, "--model {}; expected brown4, brown5 or brown8", in_quotes(model));
 }
 
 std::pair<int, int> parse_size(const std::string& text) {
@@ -151,7 +144,7 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   const std::string& output = require_output(cli);
   const Target target = parse_target(options.target);
   CalibrateOptions settings;
-  settings.parameters = parameters_of_model(options.model);
+  settings.lens = options.model;
   settings.board_warp = !options.no_warp;
   Provenance made_from = provenance(cli);
   if (options.target.ends_with(".toml")) made_from.add_input(options.target);

@@ -7,7 +7,7 @@
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "calibrate/rig.h"
-#include "calibrate/target.h"
+#include "calibrate/targets/target.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/progress.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "calibrate/synthetic.h"
+#include "calibrate/adjustment/synthetic.h"
 #include "core/png.h"
 #include "tests/calibrate/rendered_board.h"
 

@@ -1,6 +1,7 @@
 // The detector on rendered boards, whose corners are known exactly, and on the ways in which real sets are
 // incomplete.
-#include "calibrate/chessboard_detector.h"
+#include "calibrate/targets/chessboard_detector.h"
+#include "calibrate/images/find_corners.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calibrate/adjustment/normal_equations.h"
+#include "calibrate/adjustment/synthetic.h"
+#include "calibrate/adjustment/uncertainty.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/normal_equations.h"
-#include "calibrate/synthetic.h"
-#include "calibrate/uncertainty.h"
 #include "core/parallel.h"
 #include "tests/calibrate/errors.h"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "calibrate/target.h"
+#include "calibrate/targets/target.h"
 #include "core/error.h"
 #include "tests/data.h"
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calibrate/target.h"
+#include "calibrate/targets/target.h"
 #include "core/units.h"
 
 namespace bpms::test {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "calibrate/brown_conrady.h"
+#include "calibrate/lenses/brown_conrady.h"
 
 namespace bpms {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "calibrate/calibrate.h"
-#include "calibrate/chessboard_detector.h"
+#include "calibrate/images/find_corners.h"
 #include "tests/data.h"
 
 namespace bpms {
@@ -89,7 +89,7 @@ TEST(SampleSet, TheRationalModelConvergesOrIsRefused) {
   BPMS_NEED_DATA("calib_ref/corners_sub5.vnl");
   for (const char* name : {"corners_sub5.vnl", "corners_sub11.vnl"}) {
     try {
-      const Calibration c = calibrate(corners(name), board(), {.parameters = 12, .uncertainty = false});
+      const Calibration c = calibrate(corners(name), board(), {.lens = "brown8", .uncertainty = false});
       EXPECT_LT(c.residual_rms_px, 0.15);
       EXPECT_NEAR(c.pairs[0].baseline_m, 83.17e-3, 0.1e-3);
       for (const Camera& camera : c.rig.cameras) EXPECT_FALSE(pixel_without_ray(camera));
@@ -105,7 +105,7 @@ TEST(SampleSet, TheRationalModelConvergesOrIsRefused) {
 TEST(SampleSet, FifthOrderAgrees) {
   BPMS_NEED_DATA("calib_ref/corners_sub5.vnl");
   const Calibration c =
-      calibrate(corners("corners_sub5.vnl"), board(), {.parameters = 9, .uncertainty = false});
+      calibrate(corners("corners_sub5.vnl"), board(), {.lens = "brown5", .uncertainty = false});
   EXPECT_NEAR(c.pairs[0].baseline_m, 83.166e-3, 0.002e-3);
   EXPECT_NEAR(c.residual_rms_px, 0.1468, 0.0001);
 }

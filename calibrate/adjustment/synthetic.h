@@ -3,9 +3,9 @@
 #pragma once
 #include <cstdint>
 
-#include "calibrate/bundle_adjustment.h"
+#include "calibrate/adjustment/bundle_adjustment.h"
 #include "calibrate/observations.h"
-#include "calibrate/target.h"
+#include "calibrate/targets/target.h"
 
 namespace bpms {
 
@@ -15,9 +15,9 @@ struct SyntheticCalibration {
 };
 
 struct SyntheticOptions {
-  int cameras = 2;     // side by side, 83 mm apart, slightly turned to each other; 640x480
-  int frames = 13;     // the board 0.35 to 0.6 m away, tilted by up to 40 degrees, whole in every image
-  int parameters = 8;  // of each lens
+  int cameras = 2;  // side by side, 83 mm apart, slightly turned to each other; 640x480
+  int frames = 13;  // the board 0.35 to 0.6 m away, tilted by up to 40 degrees, whole in every image
+  std::string lens = "brown4";
   double focal_px = 535;
   Eigen::Vector2d bending_m{0.02e-3, -0.17e-3};
   std::uint64_t seed = 1;

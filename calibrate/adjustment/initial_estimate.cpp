@@ -1,4 +1,4 @@
-#include "calibrate/initial_estimate.h"
+#include "calibrate/adjustment/initial_estimate.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "calibrate/homography.h"
+#include "calibrate/adjustment/homography.h"
 #include "core/statistics.h"
 
 namespace bpms {
@@ -58,7 +58,7 @@ double focal_length(const FrameHomographies& homographies, double otherwise) {
 
 // One camera alone, in its own frame; frames without a board in it keep an arbitrary pose and no used corner.
 BundleState single_camera(const BundleProblem& joint, int index, const Observations::ObservedCamera& observed,
-                          int parameters, std::set<int>& frames) {
+                          const LensChoice& lens, std::set<int>& frames) {
   const Eigen::Vector2d centre(0.5 * (observed.width_px - 1), 0.5 * (observed.height_px - 1));
   const FrameHomographies planes = homographies(joint, index, centre);
   const double f = focal_length(planes, std::max(observed.width_px, observed.height_px));
@@ -67,7 +67,10 @@ BundleState single_camera(const BundleProblem& joint, int index, const Observati
   camera.name = observed.name;
   camera.width_px = observed.width_px;
   camera.height_px = observed.height_px;
-  camera.parameters.assign(static_cast<std::size_t>(std::min(parameters, 8)), 0.0);
+  const LensChoice& simple = lens.from.empty() ? lens : lens_choice(lens.from);
+  camera.model = simple.model;
+  camera.constants = simple.constants;
+  camera.parameters.assign(static_cast<std::size_t>(simple.parameters), 0.0);
   std::copy_n(std::array{f, f, centre.x(), centre.y()}.begin(), 4, camera.parameters.begin());
   state.cameras.push_back(camera);
   state.rig_from_board.resize(static_cast<std::size_t>(joint.frames));
@@ -90,7 +93,7 @@ BundleState single_camera(const BundleProblem& joint, int index, const Observati
     const double sigma = robust_sigma(alone, state);
     if (sigma > 0) adjust(alone, {cauchy_sigmas * sigma, rough, 50}, state);
   }
-  state.cameras[0].parameters.resize(static_cast<std::size_t>(parameters), 0.0);
+  state.cameras[0].parameters.resize(static_cast<std::size_t>(lens.parameters), 0.0);
   return state;
 }
 
@@ -147,13 +150,14 @@ void place_boards(const BundleProblem& problem, const std::vector<BundleState>& 
 }  // namespace
 
 BundleState initial_estimate(const BundleProblem& problem,
-                             const std::vector<Observations::ObservedCamera>& cameras, int parameters) {
+                             const std::vector<Observations::ObservedCamera>& cameras,
+                             const LensChoice& lens) {
   const std::size_t n = cameras.size();
   std::vector<BundleState> alone;
   std::vector<std::set<int>> frames(n);
   BundleState joint;
   for (std::size_t c = 0; c < n; ++c) {
-    alone.push_back(single_camera(problem, static_cast<int>(c), cameras[c], parameters, frames[c]));
+    alone.push_back(single_camera(problem, static_cast<int>(c), cameras[c], lens, frames[c]));
     joint.cameras.push_back(alone[c].cameras[0]);
   }
   std::vector<bool> joined(n, false);

@@ -4,11 +4,9 @@
 // pixels.
 #pragma once
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "calibrate/observations.h"
-#include "calibrate/target.h"
+#include "calibrate/targets/target.h"
 
 namespace cv {
 class Mat;
@@ -20,13 +18,5 @@ namespace bpms {
 // whole. Where columns + rows is odd the colours tell which end is which; otherwise the order may be turned
 // by 180 degrees.
 std::optional<std::vector<Eigen::Vector2d>> find_chessboard(const cv::Mat& grey, const Target& target);
-
-// The files that the arguments name; patterns that the shell left alone ('left[0-9]*.jpg') are expanded here.
-// A name or pattern that matches nothing stays, and is skipped later.
-std::vector<std::string> expand_patterns(const std::vector<std::string>& arguments);
-
-// Finds the target in all images, in parallel. Missing and unreadable files, images of another size than most
-// of their camera's, and images without the whole board are skipped with a reason.
-Observations find_corners(const std::vector<std::string>& images, const Target& target);
 
 }  // namespace bpms

@@ -1,4 +1,4 @@
-#include "calibrate/normal_equations.h"
+#include "calibrate/adjustment/normal_equations.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,4 @@
-#include "calibrate/bundle_adjustment.h"
+#include "calibrate/adjustment/bundle_adjustment.h"
 
 #include <ceres/ceres.h>
 #include <glog/logging.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-#include "calibrate/brown_conrady.h"
+#include "calibrate/lenses/lens.h"
 #include "core/statistics.h"
 
 namespace bpms {
@@ -40,16 +40,18 @@ struct MovingPose {
 // Blocks: lens parameters, camera pose, board pose, bending.
 class CornerResidual final : public ceres::CostFunction {
  public:
-  CornerResidual(const CornerObservation& corner, const BundleProblem& problem, int parameters,
+  CornerResidual(const CornerObservation& corner, const BundleProblem& problem, const Camera& lens,
                  const Pose& camera, const Pose& board)
       : pixel_(corner.pixel),
         point_(problem.points_m[static_cast<std::size_t>(corner.point)]),
         bending_(problem.bending[static_cast<std::size_t>(corner.point)]),
-        count_(parameters),
+        lens_(*find_lens(lens.model)),
+        constants_(lens.constants),
+        count_(lens.parameters.size()),
         camera_(camera),
         board_(board) {
     set_num_residuals(2);
-    *mutable_parameter_block_sizes() = {parameters, 6, 6, 2};
+    *mutable_parameter_block_sizes() = {static_cast<int>(count_), 6, 6, 2};
   }
 
   bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
@@ -58,7 +60,7 @@ class CornerResidual final : public ceres::CostFunction {
         point_ + Eigen::Vector3d(0, 0, bending_[0] * p[3][0] + bending_[1] * p[3][1]);
     const Eigen::Vector3d turned = rig_from_board.r * on_board, in_rig = turned + rig_from_board.t_m;
     const Eigen::Vector3d rotated = cam_from_rig.r * in_rig;
-    const auto at = brown_conrady::project_with_derivatives(p[0], count_, rotated + cam_from_rig.t_m);
+    const auto at = lens_.project_with_derivatives({{p[0], count_}, constants_}, rotated + cam_from_rig.t_m);
     if (!at) return false;  // the solver takes a shorter step
     Eigen::Map<Eigen::Vector2d>{residuals} = at->pixel - pixel_;
     if (jacobians == nullptr) return true;
@@ -78,7 +80,9 @@ class CornerResidual final : public ceres::CostFunction {
   Eigen::Vector2d pixel_;
   Eigen::Vector3d point_;
   Eigen::Vector2d bending_;
-  int count_;
+  const Lens& lens_;
+  std::vector<double> constants_;
+  std::size_t count_;
   Pose camera_, board_;
 };
 
@@ -151,10 +155,9 @@ AdjustResult adjust(const BundleProblem& problem, const AdjustOptions& options, 
     if (!corner.used) continue;
     const auto c = static_cast<std::size_t>(corner.camera), f = static_cast<std::size_t>(corner.frame);
     std::vector<double>& parameters = state.cameras[c].parameters;
-    ceres_problem.AddResidualBlock(new CornerResidual(corner, problem, static_cast<int>(parameters.size()),
-                                                      cameras[c].start, boards[f].start),
-                                   loss.get(), parameters.data(), cameras[c].change.data(),
-                                   boards[f].change.data(), state.bending_m.data());
+    ceres_problem.AddResidualBlock(
+        new CornerResidual(corner, problem, state.cameras[c], cameras[c].start, boards[f].start), loss.get(),
+        parameters.data(), cameras[c].change.data(), boards[f].change.data(), state.bending_m.data());
   }
   if (ceres_problem.HasParameterBlock(cameras[0].change.data()))
     ceres_problem.SetParameterBlockConstant(cameras[0].change.data());

@@ -3,13 +3,15 @@
 // adjusted alone, and the cameras are joined through the frames that they share by the relative pose that
 // agrees best with the others.
 #pragma once
-#include "calibrate/bundle_adjustment.h"
+#include "calibrate/adjustment/bundle_adjustment.h"
+#include "calibrate/lenses/lens.h"
 #include "calibrate/observations.h"
 
 namespace bpms {
 
-// `parameters`: 4, 8, 9 or 12 for each camera. Throws when a camera shares no frame with the others.
+// Throws when a camera shares no frame with the others.
 BundleState initial_estimate(const BundleProblem& problem,
-                             const std::vector<Observations::ObservedCamera>& cameras, int parameters);
+                             const std::vector<Observations::ObservedCamera>& cameras,
+                             const LensChoice& lens);
 
 }  // namespace bpms

@@ -1,3 +1,5 @@
+#include "calibrate/images/find_corners.h"
+
 #include <glob.h>
 
 #include <algorithm>
@@ -5,7 +7,7 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
-#include "calibrate/chessboard_detector.h"
+#include "calibrate/targets/chessboard_detector.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"

@@ -1,4 +1,4 @@
-#include "calibrate/target.h"
+#include "calibrate/targets/target.h"
 
 #include "core/text.h"
 #include "core/toml.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/bundle_adjustment.h"
+#include "calibrate/adjustment/bundle_adjustment.h"
 
 namespace bpms {
 

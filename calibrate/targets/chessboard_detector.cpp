@@ -1,4 +1,4 @@
-#include "calibrate/chessboard_detector.h"
+#include "calibrate/targets/chessboard_detector.h"
 
 #include <algorithm>
 #include <cmath>

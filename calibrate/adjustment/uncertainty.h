@@ -1,7 +1,7 @@
 // How sure the adjustment is, frame by frame: solves with one frame left out (jackknife), the sandwich
 // covariance, and the two halves of the frames against each other.
 #pragma once
-#include "calibrate/normal_equations.h"
+#include "calibrate/adjustment/normal_equations.h"
 
 namespace bpms {
 

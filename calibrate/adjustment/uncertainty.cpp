@@ -1,4 +1,4 @@
-#include "calibrate/uncertainty.h"
+#include "calibrate/adjustment/uncertainty.h"
 
 #include <cmath>
 

@@ -1,8 +1,9 @@
-#include "calibrate/synthetic.h"
+#include "calibrate/adjustment/synthetic.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "calibrate/lenses/lens.h"
 #include "core/random.h"
 #include "core/units.h"
 
@@ -78,7 +79,8 @@ SyntheticCalibration synthetic_calibration(const SyntheticOptions& options) {
   out.truth.bending_m = options.bending_m;
   Philox random(options.seed);
   for (int c = 0; c < options.cameras; ++c)
-    out.truth.cameras.push_back(make_camera(c, options.parameters, options.focal_px, random));
+    out.truth.cameras.push_back(
+        make_camera(c, lens_choice(options.lens).parameters, options.focal_px, random));
   const BundleProblem board = board_of(out.target);
   for (int f = 0; f < options.frames; ++f) {
     out.truth.rig_from_board.emplace_back();

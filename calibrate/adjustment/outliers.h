@@ -1,7 +1,7 @@
 // Which corners and views are no good. A Cauchy loss finds the solution that most corners agree on; what lies
 // far from it is left out, and the last solve is plain least squares.
 #pragma once
-#include "calibrate/bundle_adjustment.h"
+#include "calibrate/adjustment/bundle_adjustment.h"
 
 namespace bpms {
 

@@ -1,4 +1,4 @@
-#include "calibrate/homography.h"
+#include "calibrate/adjustment/homography.h"
 
 #include <Eigen/Dense>
 

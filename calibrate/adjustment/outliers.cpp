@@ -1,4 +1,4 @@
-#include "calibrate/outliers.h"
+#include "calibrate/adjustment/outliers.h"
 
 #include <algorithm>
 #include <cmath>

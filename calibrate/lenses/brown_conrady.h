@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "calibrate/lenses/lens.h"
+
 namespace bpms::brown_conrady {
 
 // parameters: fx fy cx cy [k1 k2 p1 p2 [k3 [k4 k5 k6]]]; count 4, 8, 9 or 12.
@@ -40,14 +42,8 @@ void project(const T* parameters, int count, const T* x_cam, T* pixel) {
 // the way: then no two rays up to there share a distorted radius.
 bool monotone_up_to(const double* parameters, int count, double s);
 
-// The pixel of a point in the camera's frame and its derivatives; nullopt behind the camera or outside the
-// monotone region.
-struct Derivatives {
-  Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> by_x_cam;
-  Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 12> by_parameters;
-};
-std::optional<Derivatives> project_with_derivatives(const double* parameters, int count,
-                                                    const Eigen::Vector3d& x_cam);
-
 }  // namespace bpms::brown_conrady
+
+namespace bpms {
+const Lens& brown_conrady_lens();
+}

@@ -1,0 +1,57 @@
+// A lens model: which pixel a point before a camera falls on, and which ray a pixel looks along. One file a
+// model, and one line in lens.cpp. Camera frame: x right, y down, z forward; pixel centres are integers.
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bpms {
+
+// The numbers of one lens: what an adjustment estimates (fx fy cx cy come first in every model), and what the
+// model is set up with (the grid of a spline).
+struct LensNumbers {
+  std::span<const double> parameters, constants;
+};
+
+struct LensDerivatives {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 3> by_x_cam;
+  Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameters;
+};
+
+class Lens {
+ public:
+  virtual ~Lens() = default;
+  virtual std::string_view model() const = 0;  // as rig.toml names it
+  // Of each parameter. Empty when the model does not come with so many numbers.
+  virtual std::vector<std::string> parameter_names(const LensNumbers& numbers) const = 0;
+  virtual std::string expected_numbers() const = 0;  // in words, for messages
+  // nullopt where the model is not defined, or not one to one.
+  virtual std::optional<Eigen::Vector2d> project(const LensNumbers& lens,
+                                                 const Eigen::Vector3d& x_cam) const = 0;
+  virtual std::optional<LensDerivatives> project_with_derivatives(const LensNumbers& lens,
+                                                                  const Eigen::Vector3d& x_cam) const = 0;
+  // Unit vector; nullopt where no ray leads to the pixel.
+  virtual std::optional<Eigen::Vector3d> unproject(const LensNumbers& lens,
+                                                   const Eigen::Vector2d& pixel) const = 0;
+};
+
+const Lens* find_lens(std::string_view model);  // or nullptr
+std::vector<std::string> lens_models();
+
+// What a user can ask for: a model with a number of parameters. The first guess of a calibration is made with
+// `from`, a choice with fewer parameters, and the additional parameters then start at zero.
+struct LensChoice {
+  std::string name, words, model;
+  int parameters = 0;
+  std::string from = {};  // empty: the model itself
+  std::vector<double> constants = {};
+};
+const std::vector<LensChoice>& lens_choices();
+// bad_input for a name that is none.
+const LensChoice& lens_choice(const std::string& name);
+
+}  // namespace bpms
