@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "calibrate/adjustment/bundle_adjustment.h"
 #include "calibrate/adjustment/initial_estimate.h"
 #include "calibrate/adjustment/outliers.h"
 #include "calibrate/adjustment/uncertainty.h"
@@ -59,24 +60,85 @@ void require_views(const Observations& observations) {
   }
 }
 
-BundleProblem make_problem(const Observations& observations, const Target& target,
-                           const std::vector<std::string>& frames, bool board_warp) {
-  BundleProblem out;
+NetworkTarget network_target(const Target& target, const CalibrateOptions& options) {
+  NetworkTarget out;
+  out.name = target.name.empty() ? target.kind : target.name;
   out.points_m = target.points_m();
-  out.bending = target.bending();
-  out.free_bending = board_warp;
+  std::vector<Eigen::Vector2d> bending = target.bending();
+  const bool bends = std::any_of(bending.begin(), bending.end(), [](const auto& b) { return b.norm() > 0; });
+  if (options.board_warp && bends && !target.stands) out.bending = std::move(bending);
+  out.stands = target.stands;
+  out.covariance_m2 = target.covariance_m2;
+  out.bars = target.scale_bars;
+  if (options.free_points && target.stands)
+    out.known = PointsKnown::free;
+  else if (!out.covariance_m2.empty())
+    out.known = PointsKnown::surveyed;
+  return out;
+}
+
+// Where nothing else can give: a length between points that are taken as exact must be what it is.
+void require_bars(const NetworkTarget& target) {
+  if (target.known != PointsKnown::exact) return;
+  for (const ScaleBar& bar : target.bars) {
+    const double length =
+        (target.points_m[static_cast<std::size_t>(bar.a)] - target.points_m[static_cast<std::size_t>(bar.b)])
+            .norm();
+    constexpr double sigmas = 4;
+    if (std::abs(length - bar.length_m) > sigmas * bar.sigma_m)
+      bad_input({},
+                "the scale bar between points {} and {} of the {} is {:.6g} m +- {:.2g} m, the target says "
+                "{:.6g} m: "
+                "its squares or tags are {:.3g} times as large as given",
+                bar.a, bar.b, target.name, bar.length_m, bar.sigma_m, length, bar.length_m / length);
+  }
+}
+
+BundleProblem make_problem(const Observations& observations, const std::vector<Target>& targets,
+                           const std::vector<std::string>& frames, const CalibrateOptions& options) {
+  BundleProblem out;
+  for (const Target& target : targets) {
+    out.targets.push_back(network_target(target, options));
+    require_bars(out.targets.back());
+  }
+  out.rig_moves = options.rig_moves;
+  if (options.rig_moves) {
+    const auto datum = std::find_if(targets.begin(), targets.end(), [](const Target& t) { return t.stands; });
+    if (datum == targets.end())
+      bad_input({}, "a rig that moves needs a target that stands (stands = true in its file)");
+    out.datum = static_cast<int>(datum - targets.begin());
+  }
   out.frames = static_cast<int>(frames.size());
   for (std::size_t v = 0; v < observations.views.size(); ++v) {
     const BoardView& view = observations.views[v];
     const auto frame = std::find(frames.begin(), frames.end(), view.frame) - frames.begin();
     for (const ImageCorner& corner : view.corners) {
-      if (corner.point < 0 || corner.point >= target.size())
+      if (corner.point < 0 || corner.point >= targets[static_cast<std::size_t>(view.target)].size())
         bad_input({view.image}, "corner {} is not on the target", corner.point);
-      out.corners.push_back(
-          {static_cast<int>(v), static_cast<int>(frame), view.camera, corner.point, corner.pixel});
+      out.corners.push_back({static_cast<int>(v), static_cast<int>(frame), view.camera, view.target,
+                             corner.point, corner.pixel});
     }
   }
   return out;
+}
+
+void describe_targets(const Observations& observations, const BundleProblem& problem,
+                      const BundleState& state, Calibration& out) {
+  for (std::size_t t = 0; t < problem.targets.size(); ++t) {
+    const NetworkTarget& target = problem.targets[t];
+    Calibration::TargetResult result;
+    result.name = target.name;
+    result.warp_m = state.bending_m[t];
+    result.stands = target.stands;
+    for (const BoardView& view : observations.views)
+      result.views += view.target == static_cast<int>(t) ? 1 : 0;
+    const auto point = [&](int i) { return target_point(problem, state, static_cast<int>(t), i); };
+    if (target.known != PointsKnown::exact)
+      for (int i = 0; i < static_cast<int>(target.points_m.size()); ++i) result.points_m.push_back(point(i));
+    for (const ScaleBar& bar : target.bars)
+      result.bars.push_back({bar, (point(bar.a) - point(bar.b)).norm()});
+    out.targets.push_back(std::move(result));
+  }
 }
 
 // A Gauss-Newton step from the solution must be small beside the errors (1e-3 sigma) or beside rounding (1e-9
@@ -112,6 +174,7 @@ void describe_views(const Observations& observations, const BundleProblem& probl
     out.views.push_back({view.image,
                          observations.cameras[static_cast<std::size_t>(view.camera)].name,
                          view.frame,
+                         view.target,
                          search.view_rms_px[v],
                          search.view_out[v],
                          {},
@@ -210,12 +273,12 @@ std::optional<Eigen::Vector2d> pixel_without_ray(const Camera& camera) {
   return std::nullopt;
 }
 
-Calibration calibrate(const Observations& observations, const Target& target,
+Calibration calibrate(const Observations& observations, const std::vector<Target>& targets,
                       const CalibrateOptions& options) {
   const Clock::time_point start = Clock::now();
   require_views(observations);
   const std::vector<std::string> frames = frame_names(observations);
-  BundleProblem problem = make_problem(observations, target, frames, options.board_warp);
+  BundleProblem problem = make_problem(observations, targets, frames, options);
   BundleState state = initial_estimate(problem, observations.cameras, lens_choice(options.lens));
   const OutlierSearch search =
       fit_without_outliers(problem, static_cast<int>(observations.views.size()), state);
@@ -236,7 +299,8 @@ Calibration calibrate(const Observations& observations, const Target& target,
   out.rig.residual_sigma_px = out.residual_sigma_px = equations.sigma_px();
   out.residual_rms_px = equations.rms_px();
   out.degrees_of_freedom = equations.observations - equations.parameters;
-  out.board_warp_m = state.bending_m;
+  describe_targets(observations, problem, state, out);
+  out.poses = {frames, state.rig_from_world, state.world_from_target};
   describe_views(observations, problem, state, search, out);
   const auto n = static_cast<Eigen::Index>(equations.order.size());
   out.sigma_iid = equations.sigma_px() * inverse.diagonal().head(n).cwiseSqrt();

@@ -101,7 +101,7 @@ Json report(const Calibration& c, const Observations& observations, const Target
            {"views", Json::array()},
            {"skipped", Json::array()},
            {"outliers", Json::array()},
-           {"board_warp_m", {json_number(c.board_warp_m.x()), json_number(c.board_warp_m.y())}},
+           {"board_warp_m", {json_number(c.targets[0].warp_m.x()), json_number(c.targets[0].warp_m.y())}},
            {"covariance_kind", c.rig.covariance->kind},
            {"converged", c.converged}};
   for (std::size_t i = 0; i < c.rig.cameras.size(); ++i) out["cameras"].push_back(camera_json(c, i));
