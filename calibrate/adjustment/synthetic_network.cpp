@@ -131,6 +131,22 @@ std::vector<Observations::ObservedCamera> SyntheticNetwork::cameras() const {
   return out;
 }
 
+Observations NetworkMeasurement::observations() const {
+  Observations out;
+  for (const Camera& camera : truth.cameras)
+    out.cameras.push_back({camera.name, camera.width_px, camera.height_px});
+  for (const CornerObservation& corner : problem.corners) {
+    const auto view = static_cast<std::size_t>(corner.view);
+    if (out.views.size() <= view) {
+      const std::string frame = fmt::format("{:04}", corner.frame + 1);
+      const std::string& camera = out.cameras[static_cast<std::size_t>(corner.camera)].name;
+      out.views.push_back({camera + frame, corner.camera, frame, {}, corner.target});
+    }
+    out.views[view].corners.push_back({corner.point, corner.pixel});
+  }
+  return out;
+}
+
 SyntheticNetwork synthetic_network(const SyntheticNetworkOptions& options) {
   SyntheticNetwork out;
   Philox random(options.seed);

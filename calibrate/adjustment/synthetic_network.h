@@ -32,7 +32,8 @@ SyntheticNetwork synthetic_network(const SyntheticNetworkOptions& options);
 // is none in bars and surveys.
 struct NetworkMeasurement {
   BundleProblem problem;
-  BundleState truth;  // shifts of the points are from the nominal coordinates as measured
+  BundleState truth;                  // shifts of the points are from the nominal coordinates as measured
+  Observations observations() const;  // as if from images "cameraA0001"
 };
 NetworkMeasurement measured(const SyntheticNetwork& network, double sigma_px, std::uint64_t seed);
 
