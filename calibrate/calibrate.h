@@ -9,6 +9,7 @@
 
 #include "calibrate/observations.h"
 #include "calibrate/pose.h"
+#include "calibrate/projection_uncertainty.h"
 #include "calibrate/rig.h"
 #include "calibrate/targets/target.h"
 
@@ -87,10 +88,13 @@ struct Calibration {
   };
   std::vector<Pair> pairs;
 
-  struct HalfSets {  // of the first pair; frames with odd and even numbers
-    double odd_baseline_m = 0, even_baseline_m = 0, sigma_clustered_m = 0;
+  struct HalfSets {  // frames with odd and even numbers
+    double odd_baseline_m = 0, even_baseline_m = 0, sigma_clustered_m = 0;  // of the first pair, or zeros
+    std::vector<ProjectionMap> difference;                                  // of each camera
   };
   std::optional<HalfSets> half_sets;
+  // Of each camera at the usual distance of its corners, from the covariance in the rig.
+  std::vector<ProjectionMap> projection;
   double solve_seconds = 0, uncertainty_seconds = 0;
 };
 

@@ -125,10 +125,25 @@ TEST(Calibrate, RefusesWhatCannotBeSolved) {
 
 // Boards square to the axis leave the focal length open.
 TEST(Calibrate, SaysWhatTheViewsDoNotDetermine) {
-  SyntheticCalibration scene = synthetic_calibration({.cameras = 1, .frames = 4});
-  for (std::size_t f = 0; f < 4; ++f)
+  SyntheticCalibration scene = synthetic_calibration({.cameras = 1, .frames = 6});
+  for (std::size_t f = 0; f < 6; ++f)
     scene.truth.world_from_target[0][f] = {Eigen::Matrix3d::Identity(), {-0.1, -0.06, 0.5}};
-  BPMS_EXPECT_ERROR(calibrate(observe(scene, 0, 1), scene.target), ErrorKind::numeric, "");
+  BPMS_EXPECT_ERROR(calibrate(observe(scene, 0, 1), scene.target), ErrorKind::numeric, "do not determine");
+  // Parallel boards at several distances, with noise: a number comes out, and it is not believed.
+  for (std::size_t f = 0; f < 6; ++f)
+    scene.truth.world_from_target[0][f].t_m = {-0.1, -0.06, 0.4 + 0.05 * static_cast<double>(f)};
+  for (std::uint64_t seed = 1; seed < 6; ++seed)
+    BPMS_EXPECT_ERROR(calibrate(observe(scene, 0.1, seed), scene.target), ErrorKind::numeric, "cameraA.f");
+}
+
+// The size of a square is an error that no residual shows; a bar that was measured by itself does.
+TEST(Calibrate, SaysByHowMuchAScaleBarContradicts) {
+  SyntheticCalibration scene = synthetic_calibration({.cameras = 1});
+  scene.target.scale_bars = {{0, 8, 8 * 0.0255, 1e-4}};
+  BPMS_EXPECT_ERROR(calibrate(observe(scene, 0.1, 1), scene.target), ErrorKind::bad_input,
+                    "1.02 times as large as given");
+  scene.target.scale_bars = {{0, 8, 8 * 0.025 + 2e-4, 1e-4}};
+  EXPECT_TRUE(calibrate(observe(scene, 0.1, 1), scene.target, {.uncertainty = false}).converged);
 }
 
 }  // namespace
