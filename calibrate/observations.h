@@ -33,6 +33,7 @@ struct Observations {
   std::vector<ObservedCamera> cameras;  // the first one carries the rig's frame
   std::vector<BoardView> views;
   std::vector<Skipped> skipped;
+  std::vector<Skipped> remarks;  // what was left out of images that are used, and what looks wrong with them
 };
 
 // "left01.jpg" -> camera "left", frame "01": the last digits of the name are the frame, what remains without

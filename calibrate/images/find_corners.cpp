@@ -7,7 +7,7 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
-#include "calibrate/targets/chessboard_detector.h"
+#include "calibrate/targets/target_kind.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
@@ -21,12 +21,12 @@ struct Image {
   std::string path;
   ImageName name;
   int width_px = 0, height_px = 0;
-  std::optional<std::vector<Eigen::Vector2d>> corners;
+  std::vector<Detection> found;  // of each target
   std::string trouble;
 };
 
 Image name_image(const std::string& path) {
-  Image out{path, {}, 0, 0, std::nullopt, {}};
+  Image out{path, {}, 0, 0, {}, {}};
   if (path.find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path)) {
     out.trouble = "no file matches";
     return out;
@@ -46,7 +46,7 @@ bool is_png_cut_short(const std::string& path) {
   return bytes.starts_with("\x89PNG") && bytes.find(end) == std::string::npos;
 }
 
-void look(const Target& target, Image& image) {
+void look(const std::vector<Target>& targets, Image& image) {
   if (!std::filesystem::exists(image.path)) {
     image.trouble = "no such file";
     return;
@@ -66,9 +66,17 @@ void look(const Target& target, Image& image) {
   }
   image.width_px = grey.cols;
   image.height_px = grey.rows;
-  image.corners = find_chessboard(grey, target);
-  if (!image.corners)
-    image.trouble = fmt::format("no whole {}x{} chessboard found", target.columns, target.rows);
+  std::string none;
+  bool any = false;
+  for (const Target& target : targets) {
+    image.found.push_back(detect_target(grey, target));
+    const Detection& found = image.found.back();
+    any |= found.found();
+    if (!found.found()) none += (none.empty() ? "" : "; ") + found.trouble;
+    if (!found.found() && !found.remarks.empty())
+      none += fmt::format(" ({})", fmt::join(found.remarks, "; "));
+  }
+  if (!any) image.trouble = none;
 }
 
 // The size that most readable images of the camera have.
@@ -87,13 +95,14 @@ std::pair<int, int> usual_size(const std::vector<Image>& images, const std::stri
 
 // A board that looks the same after half a turn: the first view of a frame decides, the others follow the
 // direction of its rows in the image (cameras are rolled by less than 90 degrees against each other).
-void agree_on_half_turns(const Target& target, Observations& observations) {
-  if ((target.columns + target.rows) % 2 != 0) return;
-  std::map<std::string, Eigen::Vector2d> along_of_frame;
+void agree_on_half_turns(const std::vector<Target>& targets, Observations& observations) {
+  std::map<std::pair<int, std::string>, Eigen::Vector2d> along_of_frame;
   for (BoardView& view : observations.views) {
+    const Target& target = targets[static_cast<std::size_t>(view.target)];
+    if (!target_kind(target.kind).half_turn_alike(target)) continue;
     const Eigen::Vector2d along =
         view.corners[static_cast<std::size_t>(target.columns - 1)].pixel - view.corners[0].pixel;
-    const auto [first, fresh] = along_of_frame.emplace(view.frame, along);
+    const auto [first, fresh] = along_of_frame.emplace(std::pair(view.target, view.frame), along);
     if (fresh || first->second.dot(along) > 0) continue;
     for (ImageCorner& corner : view.corners) corner.point = target.size() - 1 - corner.point;
   }
@@ -115,13 +124,13 @@ std::vector<std::string> expand_patterns(const std::vector<std::string>& argumen
   return out;
 }
 
-Observations find_corners(const std::vector<std::string>& paths, const Target& target) {
+Observations find_corners(const std::vector<std::string>& paths, const std::vector<Target>& targets) {
   std::vector<Image> images;
   for (const std::string& path : paths) images.push_back(name_image(path));
   Progress progress("finding corners", images.size());
   parallel_for(images.size(), [&](std::size_t i) {
     throw_if_interrupted();
-    if (images[i].trouble.empty()) look(target, images[i]);
+    if (images[i].trouble.empty()) look(targets, images[i]);
     progress.add();
   });
 
@@ -143,12 +152,14 @@ Observations find_corners(const std::vector<std::string>& paths, const Target& t
     if (!first)
       bad_input({image.path}, "a second image of frame {} of camera {}, beside {}", image.name.frame,
                 image.name.camera, twin->second);
-    BoardView view{image.path, camera->second, image.name.frame, {}};
-    for (int i = 0; i < target.size(); ++i)
-      view.corners.push_back({i, (*image.corners)[static_cast<std::size_t>(i)]});
-    out.views.push_back(std::move(view));
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      for (const std::string& remark : image.found[t].remarks) out.remarks.push_back({image.path, remark});
+      if (!image.found[t].found()) continue;
+      out.views.push_back({image.path, camera->second, image.name.frame, std::move(image.found[t].corners),
+                           static_cast<int>(t)});
+    }
   }
-  agree_on_half_turns(target, out);
+  agree_on_half_turns(targets, out);
   return out;
 }
 

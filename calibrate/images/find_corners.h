@@ -12,8 +12,12 @@ namespace bpms {
 // A name or pattern that matches nothing stays, and is skipped later.
 std::vector<std::string> expand_patterns(const std::vector<std::string>& arguments);
 
-// Finds the target in all images, in parallel. Missing and unreadable files, images of another size than most
-// of their camera's, and images without the whole board are skipped with a reason.
-Observations find_corners(const std::vector<std::string>& images, const Target& target);
+// Finds the targets in all images, in parallel. A view of each target that an image shows. Missing and
+// unreadable files, images of another size than most of their camera's, and images without any target are
+// skipped with a reason.
+Observations find_corners(const std::vector<std::string>& images, const std::vector<Target>& targets);
+inline Observations find_corners(const std::vector<std::string>& images, const Target& target) {
+  return find_corners(images, std::vector<Target>{target});
+}
 
 }  // namespace bpms
