@@ -9,6 +9,7 @@
 #include "calibrate/adjustment/initial_estimate.h"
 #include "calibrate/adjustment/outliers.h"
 #include "calibrate/adjustment/uncertainty.h"
+#include "calibrate/lenses/lens.h"
 #include "core/text.h"
 
 namespace bpms {
@@ -95,7 +96,7 @@ void require_sound_lenses(const std::vector<Camera>& cameras) {
       fail(ErrorKind::numeric, {},
            "camera {} came out with focal lengths {:.6g}, {:.6g}: the views do not suit the model",
            in_quotes(camera.name), camera.parameters[0], camera.parameters[1]);
-    if (const auto pixel = pixel_without_ray(camera))
+    if (const auto pixel = find_lens(camera.model)->covers_image() ? pixel_without_ray(camera) : std::nullopt)
       fail(ErrorKind::numeric, {},
            "the distortion of camera {} folds or has a pole inside the image, near pixel ({:.0f}, {:.0f}): "
            "ask for fewer "

@@ -86,6 +86,45 @@ class CornerResidual final : public ceres::CostFunction {
   Pose camera_, board_;
 };
 
+// What the lens model says beforehand; a deviation of one sigma counts as prior_sigma_px.
+class LensPriorTerm final : public ceres::CostFunction {
+ public:
+  LensPriorTerm(std::vector<LensPrior> priors, std::size_t count)
+      : priors_(std::move(priors)), count_(static_cast<Eigen::Index>(count)) {
+    set_num_residuals(static_cast<int>(priors_.size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(count));
+  }
+  bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
+    const bool jacobian = jacobians != nullptr && jacobians[0] != nullptr;
+    if (jacobian) std::fill_n(jacobians[0], count_ * num_residuals(), 0.0);
+    for (std::size_t row = 0; row < priors_.size(); ++row) {
+      const LensPrior& prior = priors_[row];
+      const double weight = prior_sigma_px / prior.sigma;
+      residuals[row] = -weight * prior.value;
+      for (const auto& [i, factor] : prior.coefficients) {
+        residuals[row] += weight * factor * p[0][i];
+        if (jacobian) jacobians[0][static_cast<Eigen::Index>(row) * count_ + i] += weight * factor;
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::vector<LensPrior> priors_;
+  Eigen::Index count_;
+};
+
+void add_lens_knowledge(Camera& camera, ceres::Problem& problem) {
+  double* block = camera.parameters.data();
+  if (!problem.HasParameterBlock(block)) return;
+  const Lens& lens = *find_lens(camera.model);
+  const LensNumbers numbers{camera.parameters, camera.constants};
+  if (const auto held = lens.held(numbers); !held.empty())
+    problem.SetManifold(block, new ceres::SubsetManifold(static_cast<int>(camera.parameters.size()), held));
+  if (auto priors = lens.priors(numbers); !priors.empty())
+    problem.AddResidualBlock(new LensPriorTerm(std::move(priors), camera.parameters.size()), nullptr, block);
+}
+
 ceres::Solver::Summary solve(ceres::Problem& problem, const AdjustOptions& options,
                              const std::vector<MovingPose>& boards) {
   ceres::Solver::Options settings;
@@ -159,6 +198,7 @@ AdjustResult adjust(const BundleProblem& problem, const AdjustOptions& options, 
         new CornerResidual(corner, problem, state.cameras[c], cameras[c].start, boards[f].start), loss.get(),
         parameters.data(), cameras[c].change.data(), boards[f].change.data(), state.bending_m.data());
   }
+  for (Camera& camera : state.cameras) add_lens_knowledge(camera, ceres_problem);
   if (ceres_problem.HasParameterBlock(cameras[0].change.data()))
     ceres_problem.SetParameterBlockConstant(cameras[0].change.data());
   if (!problem.free_bending) ceres_problem.SetParameterBlockConstant(state.bending_m.data());

@@ -40,6 +40,8 @@ std::optional<Eigen::Vector2d> residual(const BundleProblem& problem, const Bund
 // Of the used corners (both axes), a standard deviation that outliers do not move: median |r| / 0.6745.
 double robust_sigma(const BundleProblem& problem, const BundleState& state);
 
+constexpr double prior_sigma_px = 0.2;  // of a corner: weighs a lens model's priors against pixels
+
 struct AdjustOptions {
   double cauchy_px = 0;      // scale of the loss; 0 = plain least squares
   double tolerance = 1e-14;  // relative change of the cost at which the last step counts as converged

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "calibrate/adjustment/homography.h"
+#include "calibrate/lenses/enrich.h"
+#include "calibrate/lenses/fisheye_start.h"
 #include "core/statistics.h"
 
 namespace bpms {
@@ -56,18 +58,48 @@ double focal_length(const FrameHomographies& homographies, double otherwise) {
   return otherwise;
 }
 
+struct WideStart {
+  double focal_px = 0;
+  std::map<int, Pose> poses;  // of each frame
+};
+
+WideStart wide_start(const BundleProblem& problem, int camera, const Observations::ObservedCamera& observed) {
+  std::map<int, FlatView> by_frame;
+  for (const CornerObservation& corner : problem.corners) {
+    if (corner.camera != camera || !corner.used) continue;
+    FlatView& view = by_frame[corner.frame];
+    view.points_m.push_back(problem.points_m[static_cast<std::size_t>(corner.point)]);
+    view.pixels.push_back(corner.pixel);
+  }
+  std::vector<FlatView> views;
+  for (const auto& [frame, view] : by_frame) views.push_back(view);
+  WideStart out{static_cast<double>(std::max(observed.width_px, observed.height_px)), {}};
+  const auto start = fisheye_start(views, observed.width_px, observed.height_px);
+  if (!start) return out;
+  out.focal_px = start->focal_px;
+  std::size_t i = 0;
+  for (const auto& [frame, view] : by_frame) {
+    if (start->camera_from_target[i]) out.poses[frame] = *start->camera_from_target[i];
+    ++i;
+  }
+  return out;
+}
+
 // One camera alone, in its own frame; frames without a board in it keep an arbitrary pose and no used corner.
 BundleState single_camera(const BundleProblem& joint, int index, const Observations::ObservedCamera& observed,
                           const LensChoice& lens, std::set<int>& frames) {
   const Eigen::Vector2d centre(0.5 * (observed.width_px - 1), 0.5 * (observed.height_px - 1));
-  const FrameHomographies planes = homographies(joint, index, centre);
-  const double f = focal_length(planes, std::max(observed.width_px, observed.height_px));
+  const bool wide = lens.model == "fisheye";
+  const FrameHomographies planes = wide ? FrameHomographies() : homographies(joint, index, centre);
+  const WideStart start = wide ? wide_start(joint, index, observed) : WideStart{};
+  const double f =
+      wide ? start.focal_px : focal_length(planes, std::max(observed.width_px, observed.height_px));
   BundleState state;
   Camera camera;
   camera.name = observed.name;
   camera.width_px = observed.width_px;
   camera.height_px = observed.height_px;
-  const LensChoice& simple = lens.from.empty() ? lens : lens_choice(lens.from);
+  const LensChoice simple = lens.from.empty() ? lens : lens_choice(lens.from);
   camera.model = simple.model;
   camera.constants = simple.constants;
   camera.parameters.assign(static_cast<std::size_t>(simple.parameters), 0.0);
@@ -78,10 +110,12 @@ BundleState single_camera(const BundleProblem& joint, int index, const Observati
     const Eigen::Matrix3d normalised = Eigen::Vector3d(1 / f, 1 / f, 1).asDiagonal() * h;
     state.rig_from_board[static_cast<std::size_t>(frame)] = pose_from_homography(normalised);
   }
+  for (const auto& [frame, pose] : start.poses) state.rig_from_board[static_cast<std::size_t>(frame)] = pose;
 
   BundleProblem alone = joint;
-  std::erase_if(alone.corners,
-                [&](const CornerObservation& c) { return c.camera != index || !planes.contains(c.frame); });
+  std::erase_if(alone.corners, [&](const CornerObservation& c) {
+    return c.camera != index || !(planes.contains(c.frame) || start.poses.contains(c.frame));
+  });
   for (CornerObservation& corner : alone.corners) corner.camera = 0;
   std::erase_if(alone.corners, [&](const CornerObservation& c) { return !residual(alone, state, c); });
   for (const CornerObservation& corner : alone.corners) frames.insert(corner.frame);
@@ -93,7 +127,7 @@ BundleState single_camera(const BundleProblem& joint, int index, const Observati
     const double sigma = robust_sigma(alone, state);
     if (sigma > 0) adjust(alone, {cauchy_sigmas * sigma, rough, 50}, state);
   }
-  state.cameras[0].parameters.resize(static_cast<std::size_t>(lens.parameters), 0.0);
+  state.cameras[0] = enriched(state.cameras[0], lens);
   return state;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "calibrate/lenses/lens.h"
+
 namespace bpms {
 namespace {
 
@@ -58,11 +60,50 @@ void add(const BundleProblem& problem, const BundleState& state, const Columns& 
   squared += r.squaredNorm();
 }
 
+// Adds what the lens models say beforehand. Returns how many of the columns the corners determine: all, but
+// of what is held none, and with priors the trace of (corners' information) (all information)^-1.
+double add_lens_priors(const BundleState& state, const Columns& columns, NormalEquations& out) {
+  const Eigen::MatrixXd corners = out.information;
+  out.known_score.setZero(columns.count);
+  bool any = false;
+  for (std::size_t c = 0; c < state.cameras.size(); ++c) {
+    const Camera& camera = state.cameras[c];
+    const Lens& lens = *find_lens(camera.model);
+    const LensNumbers numbers{camera.parameters, camera.constants};
+    const Eigen::Index first = columns.lens[c];
+    for (const LensPrior& prior : lens.priors(numbers)) {
+      any = true;
+      double r = prior.value;
+      for (const auto& [i, a] : prior.coefficients) r -= a * camera.parameters[static_cast<std::size_t>(i)];
+      const double weight = std::pow(prior_sigma_px / prior.sigma, 2);
+      for (const auto& [i, a] : prior.coefficients) {
+        out.known_score[first + i] += weight * a * r;
+        for (const auto& [j, b] : prior.coefficients) out.information(first + i, first + j) += weight * a * b;
+      }
+    }
+    for (const int i : lens.held(numbers)) {  // known: no variance, and tied to nothing
+      any = true;
+      out.information.row(first + i).setZero();
+      out.information.col(first + i).setZero();
+      constexpr double known = 1e30;
+      out.information(first + i, first + i) = known;
+      out.known_score[first + i] = 0;
+      for (auto& frame : out.frames) frame.score[first + i] = 0;
+    }
+  }
+  if (!any) return static_cast<double>(columns.count);
+  const Eigen::VectorXd scale = out.information.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd all = scale.asDiagonal() * out.information * scale.asDiagonal(),
+                        seen = scale.asDiagonal() * corners * scale.asDiagonal();
+  return all.ldlt().solve(seen).trace();
+}
+
 }  // namespace
 
 Eigen::VectorXd NormalEquations::score() const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(information.rows());
   for (const Frame& frame : frames) out += frame.score;
+  if (known_score.size() > 0) out += known_score;
   return out;
 }
 
@@ -107,7 +148,8 @@ NormalEquations normal_equations(const BundleProblem& problem, const BundleState
     out.frames.push_back({frame, sums.g_a - sums.n_ap * step});
     out.pose_decrement += sums.g_p.dot(step);
   }
-  out.parameters = static_cast<int>(columns.count) + 6 * static_cast<int>(frames.size());
+  const double free = add_lens_priors(state, columns, out);
+  out.parameters = static_cast<int>(std::lround(free)) + 6 * static_cast<int>(frames.size());
   return out;
 }
 

@@ -18,7 +18,8 @@ struct NormalEquations {
     int frame = 0;
     Eigen::VectorXd score;  // J'r of this frame alone, its pose eliminated
   };
-  std::vector<Frame> frames;  // those with corners
+  std::vector<Frame> frames;    // those with corners
+  Eigen::VectorXd known_score;  // of the lens models' priors
   double squared_residuals = 0;
   double pose_decrement =
       0;                 // what a Gauss-Newton step of the poses alone would take off the squared residuals
