@@ -6,6 +6,7 @@
 #include "apps/bpms/verbs.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/images/find_corners.h"
+#include "calibrate/lens_selection.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -140,6 +141,40 @@ void tell(const Calibration& c, const Observations& observations) {
                      pair.baseline_sigma_m * 1e3));
 }
 
+Json selection_json(const LensSelection& selection) {
+  Json models = Json::array();
+  for (const LensScore& score : selection.scores) {
+    const bool judged = score.refused.empty();
+    const auto number = [judged](double value) { return judged ? json_number(value) : Json(nullptr); };
+    models.push_back({{"lens", score.lens},
+                      {"parameters", score.parameters},
+                      {"in_sample_rms_px", number(score.in_sample_rms_px)},
+                      {"predicted_rms_px", number(score.predicted_rms_px)},
+                      {"predicted_se_px", number(score.predicted_se_px)},
+                      {"worse_px2", number(score.worse_px2)},
+                      {"worse_se_px2", number(score.worse_se_px2)},
+                      {"chosen", score.chosen},
+                      {"refused", score.refused}});
+  }
+  return {{"chosen", selection.chosen},
+          {"folds", selection.folds},
+          {"frames", selection.frames},
+          {"corners", selection.corners},
+          {"models", models}};
+}
+
+void tell_selection(const LensSelection& selection) {
+  note(fmt::format("lens by cross-validation, {} folds of {} frames:", selection.folds, selection.frames));
+  for (const LensScore& score : selection.scores) {
+    if (!score.refused.empty())
+      note(fmt::format("  {:8} refused: {}", score.lens, score.refused));
+    else
+      note(fmt::format("  {:8} {:3} parameters, rms {:.4f} px, predicts to {:.4f} +- {:.4f} px{}", score.lens,
+                       score.parameters, score.in_sample_rms_px, score.predicted_rms_px,
+                       score.predicted_se_px, score.chosen ? ", chosen" : ""));
+  }
+}
+
 void run(const Cli& cli, const CalibrateArguments& options) {
   const std::string& output = require_output(cli);
   const Target target = parse_target(options.target);
@@ -162,11 +197,19 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   }
   for (const auto& camera : observations.cameras)
     note(fmt::format("camera {}: {}x{} pixels", camera.name, camera.width_px, camera.height_px));
+  std::optional<LensSelection> selection;
+  if (options.model == "auto") {
+    selection = choose_lens(observations, target, {.calibrate = settings});
+    settings.lens = selection->chosen;
+    tell_selection(*selection);
+  }
   const Calibration result = calibrate(observations, target, settings);
   tell(result, observations);
   write_file(output, rig_toml(result.rig, "bpms " + version() + "\n" + in_quotes(cli.command)),
              cli.common.overwrite);
-  deliver_report(cli, "calibrate", report(result, observations, target, options.model), made_from);
+  Json made = report(result, observations, target, settings.lens);
+  if (selection) made["lens_selection"] = selection_json(*selection);
+  deliver_report(cli, "calibrate", made, made_from);
 }
 
 }  // namespace
@@ -184,7 +227,8 @@ void add_calibrate(Cli& cli) {
                    "chessboard:COLUMNSxROWS:SQUARE (inner corners) or board.toml")
       ->required();
   verb->add_option("--model", options->model,
-                   "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational)");
+                   "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational), fisheye, splined "
+                   "(or splined:COLUMNSxROWS), auto (by cross-validation)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
 }
 
