@@ -53,10 +53,10 @@ Camera random_camera(const std::string& choice, Philox& random) {
   for (int i = 0; i < 4; ++i) camera.parameters[static_cast<std::size_t>(i)] += random.uniform(-20, 20);
   if (choice == "fisheye") {
     camera.model = "fisheye";
-    camera.parameters[0] = random.uniform(150, 400);
+    camera.parameters[0] = random.uniform(205, 400);  // the image corners up to 115 degrees away
     camera.parameters[1] = camera.parameters[0] * random.uniform(0.99, 1.01);
     for (const int i : {4, 5, 6, 7})
-      camera.parameters[static_cast<std::size_t>(i)] = random.uniform(-0.02, 0.02) / std::pow(3, i - 4);
+      camera.parameters[static_cast<std::size_t>(i)] = random.uniform(-0.01, 0.01) / std::pow(4, i - 4);
     return camera;
   }
   camera.parameters[4] = random.uniform(-0.3, 0.2);
