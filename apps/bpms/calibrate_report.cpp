@@ -184,4 +184,22 @@ Json calibration_json(const Calibration& c, const Observations& observations,
   return out;
 }
 
+Json lens_selection_json(const LensSelection& selection) {
+  Json out = Json::array();
+  for (const LensScore& score : selection.scores) {
+    const bool judged = score.refused.empty();
+    const auto number = [judged](double value) { return judged ? json_number(value) : Json(nullptr); };
+    out.push_back({{"choice", score.lens},
+                   {"parameters", score.parameters},
+                   {"rms_px", number(score.in_sample_rms_px)},
+                   {"cross_validated_px", number(score.predicted_rms_px)},
+                   {"se_px", number(score.predicted_se_px)},
+                   {"worse_px2", number(score.worse_px2)},
+                   {"worse_se_px2", number(score.worse_se_px2)},
+                   {"chosen", score.chosen},
+                   {"refused", judged ? Json(nullptr) : Json(score.refused)}});
+  }
+  return out;
+}
+
 }  // namespace bpms

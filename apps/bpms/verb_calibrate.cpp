@@ -1,10 +1,13 @@
 #include <fmt/core.h>
 
+#include <filesystem>
+
 #include "apps/bpms/calibrate_report.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/images/find_corners.h"
+#include "calibrate/lens_selection.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -16,7 +19,8 @@ namespace {
 
 struct CalibrateArguments {
   std::vector<std::string> images;
-  std::string corners, image_size, target, model = "brown4";
+  std::vector<std::string> targets;
+  std::string corners, image_size, model = "brown4";
   double turntable_deg = 0;
   bool no_warp = false, moving_rig = false, free_points = false;
 };
@@ -57,9 +61,22 @@ void tell(const Calibration& c, const Observations& observations) {
                      pair.baseline_sigma_m * 1e3));
 }
 
+void tell_selection(const LensSelection& selection) {
+  note(fmt::format("lens by cross-validation, {} folds of {} frames:", selection.folds, selection.frames));
+  for (const LensScore& score : selection.scores) {
+    if (!score.refused.empty())
+      note(fmt::format("  {:8} refused: {}", score.lens, score.refused));
+    else
+      note(fmt::format("  {:8} {:3} parameters, rms {:.4f} px, predicts to {:.4f} +- {:.4f} px{}", score.lens,
+                       score.parameters, score.in_sample_rms_px, score.predicted_rms_px,
+                       score.predicted_se_px, score.chosen ? ", chosen" : ""));
+  }
+}
+
 void run(const Cli& cli, const CalibrateArguments& options) {
   const std::string& output = require_output(cli);
-  const Target target = parse_target(options.target);
+  std::vector<Target> targets;
+  for (const std::string& text : options.targets) targets.push_back(parse_target(text));
   CalibrateOptions settings;
   settings.lens = options.model;
   settings.board_warp = !options.no_warp;
@@ -69,27 +86,36 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   if (options.moving_rig && options.turntable_deg != 0)
     bad_input({}, "--moving-rig and --turntable exclude each other");
   Provenance made_from = provenance(cli);
-  if (options.target.ends_with(".toml")) made_from.add_input(options.target);
+  for (const std::string& text : options.targets)
+    if (std::filesystem::is_regular_file(text)) made_from.add_input(text);
   Observations observations;
   if (!options.corners.empty()) {
     if (!options.images.empty()) bad_input({}, "--images and --corners exclude each other");
     if (options.image_size.empty()) bad_input({}, "--corners needs --image-size WIDTHxHEIGHT");
+    if (targets.size() > 1) bad_input({}, "--corners are those of one target; {} are given", targets.size());
     const auto [width, height] = parse_size(options.image_size);
-    observations = read_corners(options.corners, width, height, target.size());
+    observations = read_corners(options.corners, width, height, targets.front().size());
     made_from.add_input(options.corners);
   } else {
     if (options.images.empty()) bad_input({}, "nothing to calibrate from: give --images or --corners");
-    observations = find_corners(expand_patterns(options.images), target);
+    observations = find_corners(expand_patterns(options.images), targets);
     for (const BoardView& view : observations.views) made_from.add_input(view.image);
   }
   for (const auto& camera : observations.cameras)
     note(fmt::format("camera {}: {}x{} pixels", camera.name, camera.width_px, camera.height_px));
-  const Calibration result = calibrate(observations, target, settings);
+  std::optional<LensSelection> selection;
+  if (options.model == "auto") {
+    selection = choose_lens(observations, targets, {.calibrate = settings});
+    settings.lens = selection->chosen;
+    tell_selection(*selection);
+  }
+  const Calibration result = calibrate(observations, targets, settings);
   tell(result, observations);
   write_file(output, rig_toml(result.rig, "bpms " + version() + "\n" + in_quotes(cli.command)),
              cli.common.overwrite);
-  deliver_report(cli, "calibrate", calibration_json(result, observations, {target}, options.model),
-                 made_from);
+  Json made = calibration_json(result, observations, targets, settings.lens);
+  if (selection) made["lens_selection"] = lens_selection_json(*selection);
+  deliver_report(cli, "calibrate", made, made_from);
 }
 
 }  // namespace
@@ -103,11 +129,12 @@ void add_calibrate(Cli& cli) {
   verb->add_option("--images", options->images, "images or patterns; left01.jpg is frame 01 of camera left");
   verb->add_option("--corners", options->corners, "corners already found: rows of filename x y level");
   verb->add_option("--image-size", options->image_size, "of the images behind --corners, as in 640x480");
-  verb->add_option("--target", options->target,
-                   "chessboard:COLUMNSxROWS:SQUARE (inner corners) or board.toml")
+  verb->add_option("--target", options->targets,
+                   "chessboard:COLUMNSxROWS:SQUARE (inner corners) and other kinds, or board.toml; several may be given")
       ->required();
   verb->add_option("--model", options->model,
-                   "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational)");
+                   "lens: pinhole, brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational), fisheye, splined "
+                   "(or splined:COLUMNSxROWS), auto (by cross-validation)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
   verb->add_flag("--moving-rig", options->moving_rig, "the rig is carried around a target that stands");
   verb->add_option(
