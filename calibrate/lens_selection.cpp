@@ -148,16 +148,16 @@ Predicted predict(const std::vector<Camera>& cameras, const std::vector<SeenCorn
   for (std::size_t i = 0; i < all.size(); ++i) targets[all[i].target][i % 2].push_back(all[i]);
   Predicted out;
   for (const auto& [target, halves] : targets)
-  for (std::size_t half = 0; half < 2; ++half) {
-    const auto pose = fitted_pose(cameras, halves[half]);
-    for (const SeenCorner& corner : halves[1 - half]) {
-      const Camera& camera = cameras[static_cast<std::size_t>(corner.camera)];
-      const auto pixel =
-          pose ? project(camera, camera.camera_from_rig(*pose * corner.on_target)) : std::nullopt;
-      out.squares += pixel ? (corner.pixel - *pixel).squaredNorm() : std::pow(camera.width_px, 2);
-      out.coordinates += 2;
+    for (std::size_t half = 0; half < 2; ++half) {
+      const auto pose = fitted_pose(cameras, halves[half]);
+      for (const SeenCorner& corner : halves[1 - half]) {
+        const Camera& camera = cameras[static_cast<std::size_t>(corner.camera)];
+        const auto pixel =
+            pose ? project(camera, camera.camera_from_rig(*pose * corner.on_target)) : std::nullopt;
+        out.squares += pixel ? (corner.pixel - *pixel).squaredNorm() : std::pow(camera.width_px, 2);
+        out.coordinates += 2;
+      }
     }
-  }
   return out;
 }
 
@@ -294,7 +294,8 @@ LensSelection choose_lens(const Observations& observations, const std::vector<Ta
     Candidate& candidate = candidates[i];
     if (!candidate.all) continue;
     out.scores[i].refused = refusal([&] {
-      candidate.frames = cross_validate(observations, targets, candidate.options, frames, out.folds, unwanted);
+      candidate.frames =
+          cross_validate(observations, targets, candidate.options, frames, out.folds, unwanted);
     });
     if (!out.scores[i].refused.empty())
       out.scores[i].refused = "without a fold of frames: " + out.scores[i].refused;

@@ -130,11 +130,13 @@ void add_calibrate(Cli& cli) {
   verb->add_option("--corners", options->corners, "corners already found: rows of filename x y level");
   verb->add_option("--image-size", options->image_size, "of the images behind --corners, as in 640x480");
   verb->add_option("--target", options->targets,
-                   "chessboard:COLUMNSxROWS:SQUARE (inner corners) and other kinds, or board.toml; several may be given")
+                   "chessboard:COLUMNSxROWS:SQUARE (inner corners) and other kinds, or board.toml; several "
+                   "may be given")
       ->required();
-  verb->add_option("--model", options->model,
-                   "lens: pinhole, brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational), fisheye, splined "
-                   "(or splined:COLUMNSxROWS), auto (by cross-validation)");
+  verb->add_option(
+      "--model", options->model,
+      "lens: pinhole, brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational), fisheye, splined "
+      "(or splined:COLUMNSxROWS), auto (by cross-validation)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
   verb->add_flag("--moving-rig", options->moving_rig, "the rig is carried around a target that stands");
   verb->add_option(

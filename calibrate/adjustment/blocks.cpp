@@ -118,7 +118,8 @@ void Blocks::add_beliefs() {
     const Camera& camera = state_.cameras[static_cast<std::size_t>(c)];
     auto priors = find_lens(camera.model)->priors({camera.parameters, camera.constants});
     if (priors.empty()) continue;
-    terms_.push_back({lens_prior_term(std::move(priors), camera.parameters.size(), problem_.sigma_px), {id}, -1, true});
+    terms_.push_back(
+        {lens_prior_term(std::move(priors), camera.parameters.size(), problem_.sigma_px), {id}, -1, true});
   }
 }
 

@@ -35,8 +35,8 @@ struct Term {
   std::unique_ptr<ceres::CostFunction> cost;
   std::vector<BlockId> blocks;
   int corner = -1;  // -1: what is known beforehand
-  // No measurement, but what is believed of a lens: it keeps parameters from wandering where no corner is, and
-  // does not count as an observation.
+  // No measurement, but what is believed of a lens: it keeps parameters from wandering where no corner is,
+  // and does not count as an observation.
   bool belief = false;
 };
 

@@ -211,7 +211,8 @@ class Cell {
   std::map<int, Eigen::VectorXd> score_;  // of each frame
 };
 
-// How many of the parameters belief determines and not the corners: the trace of N^-1 (what belief adds to N).
+// How many of the parameters belief determines and not the corners: the trace of N^-1 (what belief adds to
+// N).
 double known_by_belief(const NormalEquations& equations) {
   if (equations.believed.isZero(0)) return 0;
   const Eigen::VectorXd scale = equations.information.diagonal().cwiseSqrt().cwiseInverse();

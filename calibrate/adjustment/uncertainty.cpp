@@ -70,8 +70,7 @@ Eigen::VectorXd baseline_gradient(const BundleProblem& problem, const std::vecto
   Eigen::VectorXd out = Eigen::VectorXd::Zero(columns);
   Eigen::Index at = 0;
   for (int c = 0; c < static_cast<int>(cameras.size()); ++c) {
-    at += static_cast<Eigen::Index>(
-        problem.free_parameters(c, cameras[static_cast<std::size_t>(c)]).size());
+    at += static_cast<Eigen::Index>(problem.free_parameters(c, cameras[static_cast<std::size_t>(c)]).size());
     if (c == 0) continue;
     if (c == a) {
       out.segment<3>(at) = (-direction * pose.r * cross_matrix(t_a)).transpose();
