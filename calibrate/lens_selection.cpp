@@ -45,7 +45,8 @@ std::vector<SeenCorner> corners_of_frame(const Observations& observations, const
     for (const ImageCorner& corner : view.corners) {
       if (unwanted.contains({view.image, corner.point})) continue;
       const auto p = static_cast<std::size_t>(corner.point);
-      out.push_back({view.camera, points[p] + Eigen::Vector3d(0, 0, bending[p].dot(solved.board_warp_m)),
+      out.push_back({view.camera,
+                     points[p] + Eigen::Vector3d(0, 0, bending[p].dot(solved.targets.front().warp_m)),
                      corner.pixel});
     }
   }
@@ -162,7 +163,7 @@ std::vector<Predicted> cross_validate(const Observations& observations, const Ta
     throw_if_interrupted();
     std::set<std::string> left_out;
     for (std::size_t f = fold; f < frames.size(); f += count) left_out.insert(frames[f]);
-    const Calibration solved = calibrate(without(observations, left_out), target, options);
+    const Calibration solved = calibrate(without(observations, left_out), {target}, options);
     for (std::size_t f = fold; f < frames.size(); f += count)
       out[f] =
           predict(solved.rig.cameras, corners_of_frame(observations, target, solved, frames[f], unwanted));
@@ -269,7 +270,7 @@ LensSelection choose_lens(const Observations& observations, const Target& target
     candidate.options = options.calibrate;
     candidate.options.lens = score.lens = options.candidates[i];
     candidate.options.uncertainty = false;
-    score.refused = refusal([&] { candidate.all = calibrate(observations, target, candidate.options); });
+    score.refused = refusal([&] { candidate.all = calibrate(observations, {target}, candidate.options); });
     if (!candidate.all) return;
     score.parameters = free_parameters(candidate.all->rig.cameras.front());
     score.in_sample_rms_px = candidate.all->residual_rms_px;

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "core/units.h"
+
 namespace bpms {
 namespace {
 
@@ -10,7 +12,14 @@ namespace {
 // show it, the corners of the image first.
 void require_rays(const TomlValue& rig, const Camera& lens) {
   const auto check = [&](double column, double row) {
-    if (!unproject(lens, {column, row}))
+    const auto ray = unproject(lens, {column, row});
+    constexpr double least_z = 0.01;  // 89.4 degrees from the axis: beyond, a perspective image has no place
+    if (ray && !(ray->z() > least_z))
+      rig.reject(
+          fmt::format("the lens of camera {} sees pixel ({}, {}) {:.0f} degrees off its axis: expected less "
+                      "than 89 (see type = \"spherical\")",
+                      in_quotes(lens.name), column, row, degrees(std::acos(ray->z()))));
+    if (!ray)
       rig.reject(
           fmt::format("the lens of camera {} cannot be inverted at pixel ({}, {}): its distortion "
                       "turns back there",

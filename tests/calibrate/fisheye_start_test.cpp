@@ -24,10 +24,12 @@ SyntheticCalibration wide_scene(int frames) {
   camera.width_px = 640, camera.height_px = 640;
   camera.model = "fisheye";
   camera.parameters = {200, 201, 321, 317, 0.02, -0.008, 0.003, -0.0006};
-  out.truth.cameras = {camera};
+  BundleProblem board = out.problem();
+  board.frames = frames;
+  out.truth = empty_state(board, {camera});
   Philox random(5);
   const Eigen::Vector3d middle(0.1, 0.0625, 0);
-  while (static_cast<int>(out.truth.rig_from_board.size()) < frames) {
+  for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames);) {
     const double theta = radians(random.uniform(0, 75)), towards = random.uniform(0, 2 * pi);
     const Eigen::Vector3d direction(std::sin(theta) * std::cos(towards), std::sin(theta) * std::sin(towards),
                                     std::cos(theta));
@@ -44,7 +46,7 @@ SyntheticCalibration wide_scene(int frames) {
       seen = seen && pixel && (pixel->array() > 1).all() && (pixel->array() < 638).all() &&
              std::atan2(in_camera.head<2>().norm(), in_camera.z()) < radians(88.0);
     }
-    if (seen) out.truth.rig_from_board.push_back(pose);
+    if (seen) out.truth.world_from_target[0][frame++] = pose;
   }
   return out;
 }
@@ -66,7 +68,7 @@ TEST(FisheyeStart, FindsFocalLengthAndPoses) {
   for (std::size_t f = 0; f < views.size(); ++f) {
     ASSERT_TRUE(start->camera_from_target[f]);
     const Pose& found = *start->camera_from_target[f];
-    const Pose& truth = scene.truth.rig_from_board[f];
+    const Pose& truth = scene.truth.world_from_target[0][f];
     EXPECT_LT(vector_from_rotation(found.r * truth.r.transpose()).norm(), radians(10.0)) << f;
     EXPECT_LT((found.t_m - truth.t_m).norm(), 0.1 * truth.t_m.norm()) << f;
   }

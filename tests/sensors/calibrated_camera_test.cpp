@@ -8,6 +8,8 @@
 namespace bpms::test {
 namespace {
 
+constexpr std::size_t fisheye = 0;  // in place of a count of Brown-Conrady's parameters
+
 Rig sample_rig(std::size_t parameters) {
   Rig rig;
   Camera camera;
@@ -16,7 +18,11 @@ Rig sample_rig(std::size_t parameters) {
   camera.height_px = 480;
   camera.parameters = {533.83,  534.1,    342.5, 234.82, -0.2871, 0.0902,
                        0.00119, -0.00022, 0.03,  0.02,   -0.01,   0.004};
-  camera.parameters.resize(parameters);
+  camera.parameters.resize(parameters == fisheye ? 8 : parameters);
+  if (parameters == fisheye) {
+    camera.model = "fisheye";
+    camera.parameters = {330, 331, 322, 237, 0.03, -0.012, 0.005, -0.0007};
+  }
   camera.r_cam_from_rig = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, -0.5).normalized()).toRotationMatrix();
   camera.t_cam_from_rig_m = {-0.083, 0.001, 0.02};
   rig.cameras.push_back(camera);
@@ -85,7 +91,7 @@ TEST_P(CalibratedCamera, StandsAsInTheRig) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, CalibratedCamera, ::testing::Values(4, 8, 9, 12));
+INSTANTIATE_TEST_SUITE_P(Models, CalibratedCamera, ::testing::Values(4, 8, 9, 12, fisheye));
 
 TEST(CalibratedCameraRefused, WhatDoesNotFitTheRig) {
   const TemporaryFolder folder;
@@ -94,6 +100,9 @@ TEST(CalibratedCameraRefused, WhatDoesNotFitTheRig) {
   rig.cameras[0].parameters[4] = -1.5;  // turns back within the image
   rig.cameras[0].parameters[5] = 0;
   folder.write("steep.toml", rig_toml(rig));
+  rig = sample_rig(fisheye);
+  rig.cameras[0].parameters = {200, 200, 320, 240, 0, 0, 0, 0};  // 115 degrees in the image's corners
+  folder.write("wide.toml", rig_toml(rig));
   struct Case {
     std::string body;
     const char* message;
@@ -111,6 +120,7 @@ TEST(CalibratedCameraRefused, WhatDoesNotFitTheRig) {
       {left + "scene_from_rig = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, -5]]", "below the ground"},
       {left + "up = [0, 1, 0]\nscene_from_rig = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 5]]",
        "says it already"},
+      {"rig = \"wide.toml\"\ncamera = \"left\"\n" + at, "degrees off its axis: expected less than 89"},
       {"rig = \"steep.toml\"\ncamera = \"left\"\n" + at, "its distortion turns back there"},
   };
   for (const Case& c : cases) {
