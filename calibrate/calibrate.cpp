@@ -267,6 +267,10 @@ Calibration calibrate(const Observations& observations, const Target& target,
   out.rig.covariance =
       rig_covariance(equations, inverse, out.sigma_iid, clustered ? out.sigma_clustered : out.sigma_iid,
                      clustered ? "clustered" : "iid");
+  if (clustered) {
+    out.rig.covariance->frames = out.frames;
+    out.rig.covariance->sigma_iid = out.sigma_iid;
+  }
   out.uncertainty_seconds = seconds_since(uncertainty_start);
   return out;
 }

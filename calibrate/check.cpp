@@ -1,5 +1,6 @@
 #include "calibrate/check.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>

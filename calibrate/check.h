@@ -5,8 +5,11 @@
 // r: measured minus projected corners of all cameras together, b: the poses of the board (one a frame) and
 // its bending, both free. With S = sigma^2 I + J_rig C J_rig' and b eliminated by generalised least squares,
 // r' S^-1 (r - J_board b) is chi-square with as many degrees of freedom as there are coordinates less free
-// numbers, when the rig holds. sigma is the rig's residual_sigma_px: corners of one view err together more
-// than it says, part of which C knows when it is clustered by frame.
+// numbers, when the rig holds. sigma is the rig's residual_sigma_px. Corners of one frame err together
+// besides (blur, what the lens model lacks), which sigma does not know: a covariance clustered by frame is
+// larger than the iid one by the mean of such errors over its n frames, so n times the difference is what the
+// one frame of a shot adds, T = n (C - C_iid), as an error of the rig in this frame alone: S also has J_rig T
+// J_rig'. Without it one in four shots of a sound real rig was refused.
 #pragma once
 #include <optional>
 #include <string>

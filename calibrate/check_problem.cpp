@@ -26,9 +26,11 @@ struct ShotEquations {
 };
 
 struct ShotColumns {
-  Eigen::Index errors = 0, poses = 0, bending = -1, scale = -1, count = 0;
+  Eigen::Index common = 0, of_frame = 0, errors = 0, poses = 0, bending = -1, scale = -1, count = 0;
   ShotColumns(const RigErrors& rig, const Shot& shot, const ShotFitOptions& options) {
-    errors = rig.root.cols();
+    common = rig.root.cols();
+    of_frame = rig.frame_root.cols();
+    errors = common + shot.frames * of_frame;
     poses = errors;
     count = errors + 6 * shot.frames;
     if (options.bending) bending = count, count += 2;
@@ -65,7 +67,11 @@ std::optional<ShotEquations> shot_equations(const Rig& rig, const RigErrors& err
       const Eigen::Vector2d by = number.parameter >= 0
                                      ? Eigen::Vector2d(at->by_parameters.col(number.parameter))
                                      : Eigen::Vector2d(at->by_pose.col(number.pose));
-      j.leftCols(columns.errors) += by * errors.root.row(static_cast<Eigen::Index>(row));
+      const auto at_row = static_cast<Eigen::Index>(row);
+      j.leftCols(columns.common) += by * errors.root.row(at_row);
+      if (columns.of_frame > 0)
+        j.middleCols(columns.common + corner.frame * columns.of_frame, columns.of_frame) +=
+            by * errors.frame_root.row(at_row);
     }
     const Eigen::Vector2d r = corner.pixel - at->pixel - j.leftCols(columns.errors) * state.errors;
     j.middleCols<3>(columns.poses + 6 * corner.frame) = -at->by_point * cross_matrix(turned);
@@ -141,20 +147,27 @@ RigErrors rig_errors_of(const Rig& rig) {
     out.rows.push_back(row);
   }
   // As correlations: the numbers' sizes differ by many orders of magnitude.
-  const Eigen::MatrixXd& c = rig.covariance->matrix;
+  const Rig::Covariance& known = *rig.covariance;
+  const Eigen::MatrixXd& c = known.matrix;
   const Eigen::VectorXd sigma = c.diagonal().cwiseMax(0).cwiseSqrt();
   const Eigen::VectorXd scale = (sigma.array() > 0).select(sigma.cwiseInverse(), 0.0);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * c * scale.asDiagonal());
-  out.root = sigma.asDiagonal() * eigen.eigenvectors() *
-             eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal().toDenseMatrix();
+  const Eigen::MatrixXd half =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal().toDenseMatrix();
+  out.root = sigma.asDiagonal() * half;
+  out.frame_root.resize(c.rows(), 0);
+  if (known.kind == "clustered" && known.frames > 0 && known.sigma_iid.size() == sigma.size()) {
+    const Eigen::VectorXd more = (sigma.array().square() - known.sigma_iid.array().square()).max(0).sqrt();
+    out.frame_root = std::sqrt(static_cast<double>(known.frames)) * (more.asDiagonal() * half);
+  }
   return out;
 }
 
 ShotFit fit_shot(const Rig& rig, const RigErrors& errors, const Shot& shot, const ShotFitOptions& options) {
   ShotState state;
-  state.errors.setZero(errors.root.cols());
   for (int f = 0; f < shot.frames; ++f) state.rig_from_board.push_back(first_board_pose(rig, shot, f));
   const ShotColumns columns(errors, shot, options);
+  state.errors.setZero(columns.errors);
   auto at = shot_equations(rig, errors, shot, options, state);
   if (!at) fail(ErrorKind::numeric, {}, "the board of the shot lies outside what the rig's cameras see");
   constexpr int most_steps = 100;

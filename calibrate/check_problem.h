@@ -23,7 +23,9 @@ struct Shot {
   int frames = 0;
 };
 
-// A square root of the covariance, and which camera's number each of its rows is.
+// Square roots of covariances, and which camera's number each of their rows is. Common to all frames: the
+// error of the calibration. Of each frame anew: what corners of one frame err together, seen as an error of
+// the rig.
 struct RigErrors {
   struct Row {
     int camera = 0;
@@ -31,7 +33,8 @@ struct RigErrors {
     int pose = -1;
   };
   std::vector<Row> rows;
-  Eigen::MatrixXd root;  // C = root root'
+  Eigen::MatrixXd root;        // C = root root'
+  Eigen::MatrixXd frame_root;  // no columns where the covariance does not tell
 };
 RigErrors rig_errors_of(const Rig& rig);
 

@@ -1,13 +1,17 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "apps/bpms/calibrate_check.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/images/find_corners.h"
+#include "calibrate/images/image_identity.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/nearest.h"
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/units.h"
@@ -19,6 +23,8 @@ struct CalibrateArguments {
   std::vector<std::string> images;
   std::string corners, image_size, target, model = "brown4";
   bool no_warp = false;
+  std::vector<std::string> identity;  // CAMERA.KEY=VALUE
+  CheckRigArguments check;
 };
 
 Json vector(const Eigen::Vector3d& v) {
@@ -140,7 +146,46 @@ void tell(const Calibration& c, const Observations& observations) {
                      pair.baseline_sigma_m * 1e3));
 }
 
+// From the images, then what the user says, which counts more.
+void identify_cameras(const Observations& observations, const std::vector<std::string>& said, Rig& rig) {
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    std::vector<std::string> images, differences;
+    for (const BoardView& view : observations.views)
+      if (view.camera == static_cast<int>(c) && std::filesystem::exists(view.image))
+        images.push_back(view.image);
+    rig.cameras[c].identity = common_identity(images, differences);
+    for (const std::string& line : differences) note(line);
+  }
+  for (const std::string& text : said) {
+    const std::size_t dot = text.find('.'), equals = text.find('=');
+    if (dot == std::string::npos || equals == std::string::npos || dot + 1 >= equals)
+      bad_input({}, "--identity {}; expected CAMERA.KEY=VALUE, as in left.serial=40123", in_quotes(text));
+    const int camera = rig.find(text.substr(0, dot));
+    std::vector<std::string> names;
+    for (const Camera& one : rig.cameras) names.push_back(one.name);
+    if (camera < 0)
+      bad_input({}, "--identity: no camera {}{}", in_quotes(text.substr(0, dot)),
+                did_you_mean(text.substr(0, dot), names));
+    rig.cameras[static_cast<std::size_t>(camera)].identity[text.substr(dot + 1, equals - dot - 1)] =
+        text.substr(equals + 1);
+  }
+}
+
+void run_check(const Cli& cli, const CalibrateArguments& options) {
+  CheckRigArguments check = options.check;
+  check.images.insert(check.images.end(), options.images.begin(), options.images.end());
+  check.target = options.target;
+  check.no_warp = options.no_warp;
+  if (!options.corners.empty() || !options.identity.empty() || !cli.common.output.empty())
+    bad_input({}, "--check goes with images, --target and --report; not with --corners, --identity or -o");
+  check_rig_of(cli, check);
+}
+
 void run(const Cli& cli, const CalibrateArguments& options) {
+  if (!options.check.rig.empty()) return run_check(cli, options);
+  if (!options.check.images.empty())
+    bad_input({}, "found {}: images to calibrate from are named behind --images",
+              in_quotes(options.check.images.front()));
   const std::string& output = require_output(cli);
   const Target target = parse_target(options.target);
   CalibrateOptions settings;
@@ -162,8 +207,9 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   }
   for (const auto& camera : observations.cameras)
     note(fmt::format("camera {}: {}x{} pixels", camera.name, camera.width_px, camera.height_px));
-  const Calibration result = calibrate(observations, target, settings);
+  Calibration result = calibrate(observations, target, settings);
   tell(result, observations);
+  identify_cameras(observations, options.identity, result.rig);
   write_file(output, rig_toml(result.rig, "bpms " + version() + "\n" + in_quotes(cli.command)),
              cli.common.overwrite);
   deliver_report(cli, "calibrate", report(result, observations, target, options.model), made_from);
@@ -186,6 +232,20 @@ void add_calibrate(Cli& cli) {
   verb->add_option("--model", options->model,
                    "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
+  verb->add_option("--identity", options->identity,
+                   "CAMERA.KEY=VALUE ..., kept in the rig besides what the images say: left.serial=40123");
+  verb->add_option("--check", options->check.rig,
+                   "rig.toml: does it still hold, by these images of the board? Exit 5 when it does not");
+  verb->add_option("shot", options->check.images,
+                   "with --check: images of the board, shot_left.png shot_right.png");
+  verb->add_option("--corner-sigma", options->check.corner_sigma_px,
+                   "with --check: pixels by which corners err (default: the rig's residual_sigma_px)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--least-p", options->check.least_p,
+                   "with --check: what is less probable does not hold (default 0.001)")
+      ->check(CLI::Range(1e-12, 0.5));
+  verb->add_flag("--ignore-identity", options->check.ignore_identity,
+                 "with --check: images of another camera or lens are checked all the same");
 }
 
 }  // namespace bpms

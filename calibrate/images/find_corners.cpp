@@ -25,14 +25,14 @@ struct Image {
   std::string trouble;
 };
 
-Image name_image(const std::string& path) {
+Image name_image(const std::string& path, const ImageNaming& name_of) {
   Image out{path, {}, 0, 0, std::nullopt, {}};
   if (path.find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path)) {
     out.trouble = "no file matches";
     return out;
   }
   try {
-    out.name = parse_image_name(path);
+    out.name = name_of(path);
   } catch (const Error& error) {
     out.trouble = error.message();
   }
@@ -115,9 +115,10 @@ std::vector<std::string> expand_patterns(const std::vector<std::string>& argumen
   return out;
 }
 
-Observations find_corners(const std::vector<std::string>& paths, const Target& target) {
+Observations find_corners(const std::vector<std::string>& paths, const Target& target,
+                          const ImageNaming& name_of) {
   std::vector<Image> images;
-  for (const std::string& path : paths) images.push_back(name_image(path));
+  for (const std::string& path : paths) images.push_back(name_image(path, name_of));
   Progress progress("finding corners", images.size());
   parallel_for(images.size(), [&](std::size_t i) {
     throw_if_interrupted();

@@ -1,5 +1,6 @@
 // The corners of a target in image files.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,10 @@ namespace bpms {
 std::vector<std::string> expand_patterns(const std::vector<std::string>& arguments);
 
 // Finds the target in all images, in parallel. Missing and unreadable files, images of another size than most
-// of their camera's, and images without the whole board are skipped with a reason.
-Observations find_corners(const std::vector<std::string>& images, const Target& target);
+// of their camera's, and images without the whole board are skipped with a reason. `name_of` says which
+// camera and frame an image is of.
+using ImageNaming = std::function<ImageName(const std::string& path)>;
+Observations find_corners(const std::vector<std::string>& images, const Target& target,
+                          const ImageNaming& name_of = parse_image_name);
 
 }  // namespace bpms

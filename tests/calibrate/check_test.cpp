@@ -186,18 +186,25 @@ TEST(RigCheck, RealFramesLeftOut) {
   BPMS_NEED_DATA("calib_ref/corners_sub5.vnl");
   const Target target = parse_target("chessboard:9x6:25mm");
   const Observations all = read_corners(test::data_folder() + "/calib_ref/corners_sub5.vnl", 640, 480, 54);
-  int held = 0, shots = 0;
-  for (const char* frame : {"02", "05", "08", "12"}) {
+  int held = 0, found = 0, shots = 0;
+  for (const char* frame : {"01", "02", "03", "04", "05", "06", "07", "08", "09", "11", "12", "13", "14"}) {
     Observations rest = all, shot = all;
     std::erase_if(rest.views, [&](const BoardView& view) { return view.frame == frame; });
     std::erase_if(shot.views, [&](const BoardView& view) { return view.frame != frame; });
-    const RigCheck c = check_rig(calibrate(rest, target).rig, shot, target);
+    const Rig calibrated = calibrate(rest, target).rig;
+    const RigCheck c = check_rig(calibrated, shot, target);
     std::printf("frame %s: chi2 %.1f of %d, p = %.3g, scale %.5f +- %.5f\n", frame, c.rig.chi2, c.rig.dof,
                 c.rig.p, c.scale->ratio, c.scale->sigma);
     held += c.holds();
+    // The right camera knocked by half a degree since.
+    Rig knocked = calibrated;
+    knocked.cameras[1].r_cam_from_rig =
+        rotation_from_vector(radians(0.5) * Eigen::Vector3d::UnitX()) * knocked.cameras[1].r_cam_from_rig;
+    found += !check_rig(knocked, shot, target).holds();
     ++shots;
   }
   EXPECT_EQ(held, shots);
+  EXPECT_EQ(found, shots);
 }
 
 }  // namespace
