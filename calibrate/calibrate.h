@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "calibrate/observations.h"
+#include "calibrate/pose.h"
+#include "calibrate/projection_uncertainty.h"
 #include "calibrate/rig.h"
 #include "calibrate/targets/target.h"
 
@@ -15,8 +17,13 @@ namespace bpms {
 
 struct CalibrateOptions {
   std::string lens = "brown4";  // of all cameras: a choice of calibrate/lenses/lens.h
-  bool board_warp = true;       // estimate the board's bending
-  bool uncertainty = true;      // clustered sigmas and half sets: a solve for every frame left out
+  bool board_warp = true;       // estimate the bending of flat boards
+  // The rig is carried around a target that stands (one at least must); else it stands and boards are held.
+  bool rig_moves = false;
+  // Points of what stands: as surveyed (with their covariance where they have one), or estimated with the
+  // place that they have together as the datum: a free network.
+  bool free_points = false;
+  bool uncertainty = true;  // clustered sigmas and half sets: a solve for every frame left out
 };
 
 struct Calibration {
@@ -29,10 +36,31 @@ struct Calibration {
   int degrees_of_freedom = 0;
   int corners_used = 0;
   int corners_total = 0;
-  Eigen::Vector2d board_warp_m = Eigen::Vector2d::Zero();
+
+  struct TargetResult {
+    std::string name;
+    Eigen::Vector2d warp_m = Eigen::Vector2d::Zero();
+    int views = 0;
+    bool stands = false;
+    std::vector<Eigen::Vector3d> points_m;  // where points were estimated, else empty
+    struct Bar {
+      ScaleBar bar;
+      double found_m = 0;
+    };
+    std::vector<Bar> bars;
+  };
+  std::vector<TargetResult> targets;
+  // Poses for those who want to go on from here; identity where nothing was seen.
+  struct Poses {
+    std::vector<std::string> frames;
+    std::vector<Pose> rig_from_world;                  // of a rig that moves
+    std::vector<std::vector<Pose>> world_from_target;  // [target][frame, or 0 of one that stands]
+  };
+  Poses poses;
 
   struct View {
     std::string image, camera, frame;
+    int target = 0;
     double rms_px = 0;  // per axis, over all corners that were found
     bool outlier = false;
     std::string reason;                      // why it is one; else empty
@@ -60,17 +88,24 @@ struct Calibration {
   };
   std::vector<Pair> pairs;
 
-  struct HalfSets {  // of the first pair; frames with odd and even numbers
-    double odd_baseline_m = 0, even_baseline_m = 0, sigma_clustered_m = 0;
+  struct HalfSets {  // frames with odd and even numbers
+    double odd_baseline_m = 0, even_baseline_m = 0, sigma_clustered_m = 0;  // of the first pair, or zeros
+    std::vector<ProjectionMap> difference;                                  // of each camera
   };
   std::optional<HalfSets> half_sets;
+  // Of each camera at the usual distance of its corners, from the covariance in the rig.
+  std::vector<ProjectionMap> projection;
   double solve_seconds = 0, uncertainty_seconds = 0;
 };
 
 // bad_input: fewer than 3 views of a camera, a camera that shares no frame with the others. numeric: no
 // convergence, parameters that the views do not determine, a lens that folds inside its image.
-Calibration calibrate(const Observations& observations, const Target& target,
+Calibration calibrate(const Observations& observations, const std::vector<Target>& targets,
                       const CalibrateOptions& options = {});
+inline Calibration calibrate(const Observations& observations, const Target& target,
+                             const CalibrateOptions& options = {}) {
+  return calibrate(observations, std::vector<Target>{target}, options);
+}
 
 // The first pixel on a coarse grid over the image that no ray leads to; nullopt when the lens is sound.
 std::optional<Eigen::Vector2d> pixel_without_ray(const Camera& camera);

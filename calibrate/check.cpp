@@ -173,7 +173,9 @@ RigCheck check_rig(const Rig& rig, const Observations& observations, const Targe
     bad_input({}, "the rig has no residual_sigma_px: say how well corners are found (--corner-sigma)");
   out.rig_has_covariance = rig.covariance.has_value();
   const RigErrors errors = rig_errors_of(rig);
-  ShotFitOptions how{out.corner_sigma_px, options.board_warp, false};
+  const bool bends = std::any_of(shot.bending.begin(), shot.bending.end(),
+                                 [](const Eigen::Vector2d& b) { return !b.isZero(0); });
+  ShotFitOptions how{out.corner_sigma_px, options.board_warp && bends, false};
   const ShotFit whole = fit_shot(rig, errors, shot, how);
   out.rig = verdict("rig", whole, free_numbers(shot, how), options.least_p);
   out.residual_rms_px = whole.rms_px;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "calibrate/adjustment/homography.h"
+#include "calibrate/adjustment/view_pose.h"
 
 namespace bpms {
 namespace {
@@ -106,23 +106,23 @@ void step_by(const ShotColumns& columns, const Eigen::VectorXd& step, ShotState&
   if (columns.scale >= 0) state.log_scale += step[columns.scale];
 }
 
-// From the camera that shows most corners of the frame, by the homography of its rays.
+// From the camera that shows most corners of the frame, by its rays.
 Pose first_board_pose(const Rig& rig, const Shot& shot, int frame) {
-  std::map<int, std::pair<std::vector<Eigen::Vector2d>, std::vector<Eigen::Vector2d>>> seen;
+  std::map<int, std::vector<PointPair>> seen;
   for (const ShotCorner& corner : shot.corners) {
     if (corner.frame != frame) continue;
     const auto ray = unproject(rig.cameras[static_cast<std::size_t>(corner.camera)], corner.pixel);
     if (!ray || !(ray->z() > 0)) continue;
-    seen[corner.camera].first.push_back(shot.points_m[static_cast<std::size_t>(corner.point)].head<2>());
-    seen[corner.camera].second.push_back(ray->hnormalized());
+    seen[corner.camera].push_back(
+        {shot.points_m[static_cast<std::size_t>(corner.point)], ray->hnormalized()});
   }
   const auto most = std::max_element(seen.begin(), seen.end(), [](const auto& a, const auto& b) {
-    return a.second.first.size() < b.second.first.size();
+    return a.second.size() < b.second.size();
   });
-  const auto h = most == seen.end() ? std::nullopt : homography(most->second.first, most->second.second);
-  if (!h) fail(ErrorKind::numeric, {}, "the corners of a frame do not determine where the board is");
+  const auto view = most == seen.end() ? std::nullopt : view_projection(most->second);
+  if (!view) fail(ErrorKind::numeric, {}, "the corners of a frame do not determine where the board is");
   const Camera& camera = rig.cameras[static_cast<std::size_t>(most->first)];
-  return Pose{camera.r_cam_from_rig, camera.t_cam_from_rig_m}.inverse() * pose_from_homography(*h);
+  return Pose{camera.r_cam_from_rig, camera.t_cam_from_rig_m}.inverse() * camera_from_target(*view, 1);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "apps/bpms/calibrate_check.h"
+#include "apps/bpms/calibrate_report.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "calibrate/calibrate.h"
@@ -14,7 +15,6 @@
 #include "core/nearest.h"
 #include "core/progress.h"
 #include "core/text.h"
-#include "core/units.h"
 
 namespace bpms {
 namespace {
@@ -22,14 +22,10 @@ namespace {
 struct CalibrateArguments {
   std::vector<std::string> images;
   std::string corners, image_size, target, model = "brown4";
-  bool no_warp = false;
   std::vector<std::string> identity;  // CAMERA.KEY=VALUE
   CheckRigArguments check;
+  bool no_warp = false, moving_rig = false, free_points = false;
 };
-
-Json vector(const Eigen::Vector3d& v) {
-  return {json_number(v.x()), json_number(v.y()), json_number(v.z())};
-}
 
 std::pair<int, int> parse_size(const std::string& text) {
   const std::size_t cross = text.find('x');
@@ -40,92 +36,6 @@ std::pair<int, int> parse_size(const std::string& text) {
       return {static_cast<int>(*width), static_cast<int>(*height)};
   }
   bad_input({}, "--image-size {}; expected WIDTHxHEIGHT, as in 640x480", in_quotes(text));
-}
-
-Json camera_json(const Calibration& c, std::size_t index) {
-  const Camera& camera = c.rig.cameras[index];
-  const auto& order = c.rig.covariance->order;
-  Json sigma = Json::object(), clustered = Json::object();
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const std::string prefix = camera.name + ".";
-    if (!order[i].starts_with(prefix)) continue;
-    const auto k = static_cast<Eigen::Index>(i);
-    sigma[order[i].substr(prefix.size())] = json_number(c.sigma_iid[k]);
-    clustered[order[i].substr(prefix.size())] =
-        c.sigma_clustered.size() > 0 ? json_number(c.sigma_clustered[k]) : Json(nullptr);
-  }
-  const std::vector<double>& p = camera.parameters;
-  return {{"name", camera.name},
-          {"model", camera.model},
-          {"width", camera.width_px},
-          {"height", camera.height_px},
-          {"fx", json_number(p[0])},
-          {"fy", json_number(p[1])},
-          {"cx", json_number(p[2])},
-          {"cy", json_number(p[3])},
-          {"distortion", std::vector<double>(p.begin() + 4, p.end())},
-          {"sigma", sigma},
-          {"sigma_clustered", clustered}};
-}
-
-Json pair_json(const Calibration& c, const Calibration::Pair& pair) {
-  return {{"a", c.rig.cameras[static_cast<std::size_t>(pair.a)].name},
-          {"b", c.rig.cameras[static_cast<std::size_t>(pair.b)].name},
-          {"baseline_m", json_number(pair.baseline_m)},
-          {"baseline_sigma_m", json_number(pair.baseline_sigma_m)},
-          {"baseline_sigma_clustered_m",
-           pair.baseline_sigma_clustered_m ? json_number(*pair.baseline_sigma_clustered_m) : Json(nullptr)},
-          {"rotation_deg", vector(pair.rotation_vector * degrees(1.0))},
-          {"translation_m", vector(pair.translation_m)}};
-}
-
-Json view_json(const Calibration::View& view) {
-  Json residuals = Json::array();
-  for (const Eigen::Vector4d& r : view.residuals) residuals.push_back({r[0], r[1], r[2], r[3]});
-  return {{"image", view.image},     {"camera", view.camera},
-          {"frame", view.frame},     {"rms_px", json_number(view.rms_px)},
-          {"outlier", view.outlier}, {"reason", view.reason},
-          {"residuals", residuals}};
-}
-
-Json report(const Calibration& c, const Observations& observations, const Target& target,
-            const std::string& model) {
-  Json out{{"model", model},
-           {"target",
-            {{"kind", target.kind},
-             {"columns", target.columns},
-             {"rows", target.rows},
-             {"square_m", target.square_m}}},
-           {"cameras", Json::array()},
-           {"pairs", Json::array()},
-           {"residual_rms_px", json_number(c.residual_rms_px)},
-           {"residual_sigma_px", json_number(c.residual_sigma_px)},
-           {"degrees_of_freedom", c.degrees_of_freedom},
-           {"frames", c.frames},
-           {"corners_used", c.corners_used},
-           {"corners_total", c.corners_total},
-           {"views", Json::array()},
-           {"skipped", Json::array()},
-           {"outliers", Json::array()},
-           {"board_warp_m", {json_number(c.board_warp_m.x()), json_number(c.board_warp_m.y())}},
-           {"covariance_kind", c.rig.covariance->kind},
-           {"converged", c.converged}};
-  for (std::size_t i = 0; i < c.rig.cameras.size(); ++i) out["cameras"].push_back(camera_json(c, i));
-  for (const auto& pair : c.pairs) out["pairs"].push_back(pair_json(c, pair));
-  for (const auto& view : c.views) out["views"].push_back(view_json(view));
-  for (const auto& [image, reason] : observations.skipped)
-    out["skipped"].push_back({{"image", image}, {"reason", reason}});
-  for (const auto& o : c.outliers)
-    out["outliers"].push_back(
-        {{"image", o.image}, {"corner", o.corner}, {"residual_px", json_number(o.residual_px)}});
-  if (c.half_sets)
-    out["half_sets"] = {
-        {"odd_baseline_m", json_number(c.half_sets->odd_baseline_m)},
-        {"even_baseline_m", json_number(c.half_sets->even_baseline_m)},
-        {"difference_m", json_number(c.half_sets->odd_baseline_m - c.half_sets->even_baseline_m)},
-        {"sigma_clustered_m", json_number(c.half_sets->sigma_clustered_m)}};
-  out["seconds"] = {{"solve", c.solve_seconds}, {"uncertainty", c.uncertainty_seconds}};
-  return out;
 }
 
 void tell(const Calibration& c, const Observations& observations) {
@@ -191,6 +101,8 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   CalibrateOptions settings;
   settings.lens = options.model;
   settings.board_warp = !options.no_warp;
+  settings.rig_moves = options.moving_rig;
+  settings.free_points = options.free_points;
   Provenance made_from = provenance(cli);
   if (options.target.ends_with(".toml")) made_from.add_input(options.target);
   Observations observations;
@@ -212,7 +124,8 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   identify_cameras(observations, options.identity, result.rig);
   write_file(output, rig_toml(result.rig, "bpms " + version() + "\n" + in_quotes(cli.command)),
              cli.common.overwrite);
-  deliver_report(cli, "calibrate", report(result, observations, target, options.model), made_from);
+  deliver_report(cli, "calibrate", calibration_json(result, observations, {target}, options.model),
+                 made_from);
 }
 
 }  // namespace
@@ -246,6 +159,9 @@ void add_calibrate(Cli& cli) {
       ->check(CLI::Range(1e-12, 0.5));
   verb->add_flag("--ignore-identity", options->check.ignore_identity,
                  "with --check: images of another camera or lens are checked all the same");
+  verb->add_flag("--moving-rig", options->moving_rig, "the rig is carried around a target that stands");
+  verb->add_flag("--free-points", options->free_points,
+                 "estimate the points of what stands, with their place together as the datum");
 }
 
 }  // namespace bpms

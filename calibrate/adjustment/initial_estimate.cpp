@@ -1,108 +1,27 @@
 #include "calibrate/adjustment/initial_estimate.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "calibrate/adjustment/homography.h"
+#include "calibrate/adjustment/single_camera.h"
+#include "core/parallel.h"
 #include "core/statistics.h"
 
 namespace bpms {
 namespace {
-
-using FrameHomographies = std::map<int, Eigen::Matrix3d>;  // of one camera, onto pixels from its image centre
-
-FrameHomographies homographies(const BundleProblem& problem, int camera, const Eigen::Vector2d& centre) {
-  std::map<int, std::pair<std::vector<Eigen::Vector2d>, std::vector<Eigen::Vector2d>>> points;
-  for (const CornerObservation& corner : problem.corners) {
-    if (corner.camera != camera || !corner.used) continue;
-    auto& [plane, image] = points[corner.frame];
-    plane.push_back(problem.points_m[static_cast<std::size_t>(corner.point)].head<2>());
-    image.push_back(corner.pixel - centre);
-  }
-  FrameHomographies out;
-  for (const auto& [frame, pair] : points) {
-    if (const auto h = homography(pair.first, pair.second)) out[frame] = *h;
-  }
-  return out;
-}
-
-// Of each view the two conditions on a rotation's columns, a (h1x h2x + h1y h2y) + h1z h2z = 0 and the same
-// of |h1|^2 - |h2|^2, give a = 1/f^2; the median over views, weighted by what each view knows, ignores single
-// bad boards.
-double focal_length(const FrameHomographies& homographies, double otherwise) {
-  std::vector<std::pair<double, double>> votes;  // a, weight
-  double total = 0;
-  for (const auto& [frame, h] : homographies) {
-    const Eigen::Vector3d h1 = h.col(0) / h.col(0).norm(), h2 = h.col(1) / h.col(0).norm();
-    const Eigen::Vector2d c(h1.head<2>().dot(h2.head<2>()),
-                            h1.head<2>().squaredNorm() - h2.head<2>().squaredNorm());
-    const Eigen::Vector2d d(h1.z() * h2.z(), h1.z() * h1.z() - h2.z() * h2.z());
-    if (!(c.squaredNorm() > 0)) continue;
-    votes.emplace_back(-c.dot(d) / c.squaredNorm(), c.squaredNorm());
-    total += c.squaredNorm();
-  }
-  std::sort(votes.begin(), votes.end());
-  double sum = 0;
-  for (const auto& [a, weight] : votes) {
-    sum += weight;
-    if (sum < total / 2) continue;
-    const double f = a > 0 ? 1 / std::sqrt(a) : 0;
-    constexpr double shortest = 0.2, longest = 50;  // of the image's width
-    return f > shortest * otherwise && f < longest * otherwise ? f : otherwise;
-  }
-  return otherwise;
-}
-
-// One camera alone, in its own frame; frames without a board in it keep an arbitrary pose and no used corner.
-BundleState single_camera(const BundleProblem& joint, int index, const Observations::ObservedCamera& observed,
-                          const LensChoice& lens, std::set<int>& frames) {
-  const Eigen::Vector2d centre(0.5 * (observed.width_px - 1), 0.5 * (observed.height_px - 1));
-  const FrameHomographies planes = homographies(joint, index, centre);
-  const double f = focal_length(planes, std::max(observed.width_px, observed.height_px));
-  BundleState state;
-  Camera camera;
-  camera.name = observed.name;
-  camera.width_px = observed.width_px;
-  camera.height_px = observed.height_px;
-  const LensChoice& simple = lens.from.empty() ? lens : lens_choice(lens.from);
-  camera.model = simple.model;
-  camera.constants = simple.constants;
-  camera.parameters.assign(static_cast<std::size_t>(simple.parameters), 0.0);
-  std::copy_n(std::array{f, f, centre.x(), centre.y()}.begin(), 4, camera.parameters.begin());
-  state.cameras.push_back(camera);
-  state.rig_from_board.resize(static_cast<std::size_t>(joint.frames));
-  for (const auto& [frame, h] : planes) {
-    const Eigen::Matrix3d normalised = Eigen::Vector3d(1 / f, 1 / f, 1).asDiagonal() * h;
-    state.rig_from_board[static_cast<std::size_t>(frame)] = pose_from_homography(normalised);
-  }
-
-  BundleProblem alone = joint;
-  std::erase_if(alone.corners,
-                [&](const CornerObservation& c) { return c.camera != index || !planes.contains(c.frame); });
-  for (CornerObservation& corner : alone.corners) corner.camera = 0;
-  std::erase_if(alone.corners, [&](const CornerObservation& c) { return !residual(alone, state, c); });
-  for (const CornerObservation& corner : alone.corners) frames.insert(corner.frame);
-  if (alone.corners.empty()) return state;
-  alone.free_bending = false;     // the joint solve knows it better
-  constexpr double rough = 1e-3;  // a start for what follows
-  adjust(alone, {.tolerance = rough, .most_iterations = 50}, state);
-  for (int round = 0; round < 2; ++round) {
-    const double sigma = robust_sigma(alone, state);
-    if (sigma > 0) adjust(alone, {cauchy_sigmas * sigma, rough, 50}, state);
-  }
-  state.cameras[0].parameters.resize(static_cast<std::size_t>(lens.parameters), 0.0);
-  return state;
-}
 
 double distance(const Pose& a, const Pose& b, double metres_per_radian) {
   return (a.t_m - b.t_m).norm() + metres_per_radian * vector_from_rotation(a.r * b.r.transpose()).norm();
 }
 
 // The candidate with the least median distance to the others.
-Pose medoid(const std::vector<Pose>& candidates) {
+Pose medoid(std::vector<Pose> candidates) {
+  constexpr std::size_t most = 200;  // the cost rises with the square
+  for (std::size_t i = 0; candidates.size() > most && i < most; ++i)
+    candidates[i] = candidates[i * candidates.size() / most];
+  candidates.resize(std::min(candidates.size(), most));
   double size = 0;
   for (const Pose& pose : candidates) size = std::max(size, pose.t_m.norm());
   std::size_t best = 0;
@@ -116,86 +35,204 @@ Pose medoid(const std::vector<Pose>& candidates) {
   return candidates[best];
 }
 
-// Each frame's board from the camera whose view of it suits the other views best: a view found wrongly must
-// not place the board for all.
-void place_boards(const BundleProblem& problem, const std::vector<BundleState>& alone,
-                  const std::vector<std::set<int>>& frames, BundleState& joint) {
-  const auto count = static_cast<std::size_t>(problem.frames);
-  joint.rig_from_board.resize(count);
-  std::vector<std::vector<CornerObservation>> corners(count);
-  for (const CornerObservation& corner : problem.corners)
-    corners[static_cast<std::size_t>(corner.frame)].push_back(corner);
-  std::vector<double> least(count, HUGE_VAL);
-  for (std::size_t c = 0; c < alone.size(); ++c) {
-    const Pose rig_from_cam =
-        Pose{joint.cameras[c].r_cam_from_rig, joint.cameras[c].t_cam_from_rig_m}.inverse();
-    for (const int frame : frames[c]) {
-      const auto f = static_cast<std::size_t>(frame);
-      const Pose before = joint.rig_from_board[f];
-      joint.rig_from_board[f] = rig_from_cam * alone[c].rig_from_board[f];
-      double cost = 0;
-      for (const CornerObservation& corner : corners[f]) {
-        const auto r = residual(problem, joint, corner);
-        constexpr double nowhere_px = 1e4;
-        cost += std::log1p(r ? r->squaredNorm() : nowhere_px * nowhere_px);  // Cauchy's loss at 1 px
-      }
-      if (cost < least[f])
-        least[f] = cost;
-      else
-        joint.rig_from_board[f] = before;
+// Poses become known one after the other: of the three in C_camera R_frame T_target, what a view tells, the
+// third follows from two.
+class Joining {
+ public:
+  Joining(const BundleProblem& problem, const std::vector<SingleCamera>& alone, BundleState& state)
+      : problem_(problem), alone_(alone), state_(state) {
+    for (const CornerObservation& corner : problem.corners) {
+      corners_of_frame_[corner.frame].push_back(corner);
+      corners_of_target_[slot_of(corner.target, corner.frame)].push_back(corner);
     }
+    seed();
   }
-}
 
-}  // namespace
-
-BundleState initial_estimate(const BundleProblem& problem,
-                             const std::vector<Observations::ObservedCamera>& cameras,
-                             const LensChoice& lens) {
-  const std::size_t n = cameras.size();
-  std::vector<BundleState> alone;
-  std::vector<std::set<int>> frames(n);
-  BundleState joint;
-  for (std::size_t c = 0; c < n; ++c) {
-    alone.push_back(single_camera(problem, static_cast<int>(c), cameras[c], lens, frames[c]));
-    joint.cameras.push_back(alone[c].cameras[0]);
-  }
-  std::vector<bool> joined(n, false);
-  joined[0] = true;
-  for (std::size_t step = 1; step < n; ++step) {  // the pair with the most shared frames next
-    std::size_t from = 0, to = 0;
-    std::vector<int> shared;
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = 0; b < n; ++b) {
-        if (!joined[a] || joined[b]) continue;
-        std::vector<int> both;
-        std::set_intersection(frames[a].begin(), frames[a].end(), frames[b].begin(), frames[b].end(),
-                              std::back_inserter(both));
-        if (both.size() > shared.size()) shared = both, from = a, to = b;
+  void run() {
+    for (std::size_t round = 0; round < alone_.size(); ++round) {
+      while (place()) {
       }
+      if (!add_camera()) break;
     }
-    if (shared.empty()) {
-      const auto lonely =
-          static_cast<std::size_t>(std::find(joined.begin(), joined.end(), false) - joined.begin());
+    while (place()) {
+    }
+    require_all();
+    place_anew();
+    to_first_camera();
+  }
+  bool placed(const CornerObservation& corner) const {
+    return frame_known(corner.frame) && targets_.contains(slot_of(corner.target, corner.frame));
+  }
+
+ private:
+  using Slot = std::pair<int, std::size_t>;
+  Slot slot_of(int target, int frame) const { return {target, problem_.slot(target, frame)}; }
+  Pose camera(int c) const { return camera_pose(state_.cameras[static_cast<std::size_t>(c)]); }
+  Pose frame(int f) const {
+    return problem_.rig_moves ? state_.rig_from_world[static_cast<std::size_t>(f)] : Pose{};
+  }
+  Pose target(const Slot& slot) const {
+    return state_.world_from_target[static_cast<std::size_t>(slot.first)][slot.second];
+  }
+  bool frame_known(int f) const { return !problem_.rig_moves || frames_.contains(f); }
+
+  // The camera that sees the most of the datum begins; camera 0 where there is none.
+  void seed() {
+    std::size_t first = 0, most = 0;
+    for (std::size_t c = 0; problem_.rig_moves && c < alone_.size(); ++c) {
+      std::size_t seen = 0;
+      for (const auto& [key, pose] : alone_[c].camera_from_target)
+        seen += key.second == problem_.datum ? 1 : 0;
+      if (seen > most) most = seen, first = c;
+    }
+    cameras_.insert(static_cast<int>(first));
+    if (problem_.rig_moves) targets_.insert({problem_.datum, 0});
+  }
+
+  // Of each view whose camera is known.
+  template <class Visit>
+  void visit_views(const Visit& visit) const {
+    for (const int c : cameras_)
+      for (const auto& [key, pose] : alone_[static_cast<std::size_t>(c)].camera_from_target)
+        visit(c, key.first, slot_of(key.second, key.first), pose);
+  }
+
+  double cost(const std::vector<CornerObservation>& corners) const {
+    double sum = 0;
+    for (const CornerObservation& corner : corners) {
+      if (!cameras_.contains(corner.camera) || !frame_known(corner.frame) ||
+          !targets_.contains(slot_of(corner.target, corner.frame)))
+        continue;
+      const auto r = residual(problem_, state_, corner);
+      constexpr double nowhere_px = 1e4;
+      sum += std::log1p(r ? r->squaredNorm() : nowhere_px * nowhere_px);  // Cauchy's loss at 1 px
+    }
+    return sum;
+  }
+
+  // The candidate that suits all views of it best: a view found wrongly must not place it for all.
+  void settle(Pose& place, std::vector<Pose> candidates, const std::vector<CornerObservation>& corners) {
+    constexpr std::size_t most = 16;  // of a target that stands and is seen in many frames
+    if (candidates.size() > most) candidates.push_back(medoid(candidates));
+    double least = HUGE_VAL;
+    Pose best = candidates.front();
+    const std::size_t step = std::max<std::size_t>(1, candidates.size() / most);
+    for (std::size_t i = candidates.size(); i-- > 0;) {
+      if (i % step != 0 && i + 1 != candidates.size()) continue;
+      place = candidates[i];
+      const double now = cost(corners);
+      if (now < least) least = now, best = candidates[i];
+    }
+    place = best;
+  }
+
+  // Frames, then targets, that follow from what is known; true when there were any.
+  bool place() {
+    std::map<int, std::vector<Pose>> frames;
+    std::map<Slot, std::vector<Pose>> targets;
+    visit_views([&](int c, int f, const Slot& slot, const Pose& pose) {
+      if (!frame_known(f) && targets_.contains(slot))
+        frames[f].push_back(camera(c).inverse() * pose * target(slot).inverse());
+      else if (frame_known(f) && !targets_.contains(slot))
+        targets[slot].push_back((camera(c) * frame(f)).inverse() * pose);
+    });
+    for (auto& [f, candidates] : frames) settle_frame(f, std::move(candidates));
+    for (auto& [slot, candidates] : targets) settle_target(slot, std::move(candidates));
+    return !frames.empty() || !targets.empty();
+  }
+  void settle_frame(int f, std::vector<Pose> candidates) {
+    frames_.insert(f);
+    settle(state_.rig_from_world[static_cast<std::size_t>(f)], std::move(candidates),
+           corners_of_frame_.at(f));
+  }
+  void settle_target(const Slot& slot, std::vector<Pose> candidates) {
+    targets_.insert(slot);
+    settle(state_.world_from_target[static_cast<std::size_t>(slot.first)][slot.second], std::move(candidates),
+           corners_of_target_.at(slot));
+  }
+
+  // The one with the most views of what is known.
+  bool add_camera() {
+    int best = -1;
+    std::vector<Pose> most;
+    for (int c = 0; c < static_cast<int>(alone_.size()); ++c) {
+      if (cameras_.contains(c)) continue;
+      std::vector<Pose> candidates;
+      for (const auto& [key, pose] : alone_[static_cast<std::size_t>(c)].camera_from_target) {
+        const Slot slot = slot_of(key.second, key.first);
+        if (frame_known(key.first) && targets_.contains(slot))
+          candidates.push_back(pose * (frame(key.first) * target(slot)).inverse());
+      }
+      if (candidates.size() > most.size()) most = std::move(candidates), best = c;
+    }
+    if (best < 0) return false;
+    cameras_.insert(best);
+    set_pose(state_.cameras[static_cast<std::size_t>(best)], medoid(std::move(most)));
+    return true;
+  }
+
+  void require_all() const {
+    for (int c = 0; c < static_cast<int>(alone_.size()); ++c) {
+      if (cameras_.contains(c)) continue;
       bad_input(
           {},
           "camera {} shares no frame with {}: the cameras' images of one moment must carry the same digits",
-          in_quotes(cameras[lonely].name), in_quotes(cameras[0].name));
+          in_quotes(state_.cameras[static_cast<std::size_t>(c)].name),
+          in_quotes(state_.cameras[static_cast<std::size_t>(*cameras_.begin())].name));
     }
-    std::vector<Pose> candidates;
-    for (const int frame : shared) {
-      const auto f = static_cast<std::size_t>(frame);
-      candidates.push_back(alone[to].rig_from_board[f] * alone[from].rig_from_board[f].inverse());
-    }
-    const Pose relative = medoid(candidates);
-    Camera& camera = joint.cameras[to];
-    const Camera& base = joint.cameras[from];
-    const Pose pose = relative * Pose{base.r_cam_from_rig, base.t_cam_from_rig_m};
-    camera.r_cam_from_rig = pose.r;
-    camera.t_cam_from_rig_m = pose.t_m;
-    joined[to] = true;
   }
-  place_boards(problem, alone, frames, joint);
+
+  // With all cameras known, what was placed by the first of them is looked at again.
+  void place_anew() {
+    std::map<int, std::vector<Pose>> frames;
+    visit_views([&](int c, int f, const Slot& slot, const Pose& pose) {
+      if (problem_.rig_moves && targets_.contains(slot))
+        frames[f].push_back(camera(c).inverse() * pose * target(slot).inverse());
+    });
+    for (auto& [f, candidates] : frames) settle_frame(f, std::move(candidates));
+    std::map<Slot, std::vector<Pose>> targets;
+    visit_views([&](int c, int f, const Slot& slot, const Pose& pose) {
+      if (frame_known(f) && !(problem_.rig_moves && slot.first == problem_.datum))
+        targets[slot].push_back((camera(c) * frame(f)).inverse() * pose);
+    });
+    for (auto& [slot, candidates] : targets) settle_target(slot, std::move(candidates));
+  }
+
+  // The rig's frame is camera 0's.
+  void to_first_camera() {
+    const Pose first = camera(0);
+    for (Camera& c : state_.cameras) set_pose(c, camera_pose(c) * first.inverse());
+    if (problem_.rig_moves) {
+      for (Pose& pose : state_.rig_from_world) pose = first * pose;
+      return;
+    }
+    for (auto& slots : state_.world_from_target)
+      for (Pose& pose : slots) pose = first * pose;
+  }
+
+  const BundleProblem& problem_;
+  const std::vector<SingleCamera>& alone_;
+  BundleState& state_;
+  std::map<int, std::vector<CornerObservation>> corners_of_frame_;
+  std::map<Slot, std::vector<CornerObservation>> corners_of_target_;
+  std::set<int> cameras_, frames_;  // what is known
+  std::set<Slot> targets_;
+};
+
+}  // namespace
+
+BundleState initial_estimate(BundleProblem& problem, const std::vector<Observations::ObservedCamera>& cameras,
+                             const LensChoice& lens) {
+  std::vector<SingleCamera> alone(cameras.size());
+  parallel_for(cameras.size(), [&](std::size_t c) {
+    alone[c] = single_camera(problem, static_cast<int>(c), cameras[c], lens);
+  });
+  std::vector<Camera> start;
+  for (const SingleCamera& one : alone) start.push_back(one.camera);
+  BundleState joint = empty_state(problem, std::move(start));
+  Joining joining(problem, alone, joint);
+  joining.run();
+  for (CornerObservation& corner : problem.corners) corner.placed = joining.placed(corner);
   return joint;
 }
 

@@ -1,17 +1,14 @@
-// A first guess of cameras and poses from nothing but the corners: homographies of the flat board give each
-// camera's focal length (Zhang 2000, principal point at the centre) and the poses; each camera is then
-// adjusted alone, and the cameras are joined through the frames that they share by the relative pose that
-// agrees best with the others.
+// A first guess of cameras and poses from nothing but the corners: each camera is adjusted alone, then all
+// are joined through what they saw together, by the relative poses that agree best with the others.
 #pragma once
-#include "calibrate/adjustment/bundle_adjustment.h"
+#include "calibrate/adjustment/network.h"
 #include "calibrate/lenses/lens.h"
 #include "calibrate/observations.h"
 
 namespace bpms {
 
-// Throws when a camera shares no frame with the others.
-BundleState initial_estimate(const BundleProblem& problem,
-                             const std::vector<Observations::ObservedCamera>& cameras,
+// Says of each corner whether it was placed. bad_input when a camera shares nothing with the others.
+BundleState initial_estimate(BundleProblem& problem, const std::vector<Observations::ObservedCamera>& cameras,
                              const LensChoice& lens);
 
 }  // namespace bpms

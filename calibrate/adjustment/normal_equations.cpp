@@ -2,72 +2,218 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "calibrate/adjustment/blocks.h"
 
 namespace bpms {
 namespace {
 
-struct Columns {
-  std::vector<Eigen::Index> lens, pose;  // first column of each camera's; pose of camera 0: none (-1)
-  Eigen::Index bending = -1;
-  Eigen::Index count = 0;
+using Kind = BlockId::Kind;
+using Matrix = Eigen::MatrixXd;
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// Which block belongs to what is eliminated together: a frame, or a point of nature (then frames are tied
+// together by the points and stay).
+struct Elimination {
+  const BundleProblem& problem;
+  bool nature = false;
+
+  explicit Elimination(const BundleProblem& p) : problem(p) {
+    for (const NetworkTarget& target : p.targets) nature = nature || target.known == PointsKnown::unknown;
+  }
+  bool eliminated(const BlockId& id) const {
+    if (nature)
+      return id.kind == Kind::point &&
+             problem.targets[static_cast<std::size_t>(id.a)].known == PointsKnown::unknown;
+    return id.kind == Kind::rig || (id.kind == Kind::target && problem.slots(id.a) > 1);
+  }
+  // Of a term; {-1, -1}: it has nothing that is eliminated.
+  std::pair<int, int> cell(const Term& term) const {
+    for (const BlockId& id : term.blocks) {
+      if (!eliminated(id)) continue;
+      if (nature) return {id.a, id.b};
+      return {problem.corners[static_cast<std::size_t>(term.corner)].frame, 0};
+    }
+    return {-1, -1};
+  }
 };
 
-Columns columns_of(const BundleProblem& problem, const BundleState& state) {
-  Columns out;
-  for (std::size_t c = 0; c < state.cameras.size(); ++c) {
-    out.lens.push_back(out.count);
-    out.count += static_cast<Eigen::Index>(state.cameras[c].parameters.size());
-    out.pose.push_back(c == 0 ? -1 : out.count);
-    if (c > 0) out.count += 6;
+struct Column {
+  Eigen::Index first = -1;  // -1: eliminated
+  std::vector<int> free;    // of the block's values
+};
+using Columns = std::map<BlockId, Column>;
+
+std::vector<std::string> block_names(const BundleProblem& problem, const BundleState& state,
+                                     const BlockId& id) {
+  const auto a = static_cast<std::size_t>(id.a);
+  static const char* const pose[] = {"rx", "ry", "rz", "tx", "ty", "tz"};
+  std::vector<std::string> out;
+  if (id.kind == Kind::lens || id.kind == Kind::camera) {
+    const std::vector<std::string> names = parameter_names(state.cameras[a]);
+    const auto lens = static_cast<std::ptrdiff_t>(state.cameras[a].parameters.size());
+    const auto begin = id.kind == Kind::lens ? names.begin() : names.begin() + lens,
+               end = id.kind == Kind::lens ? names.begin() + lens : names.end();
+    for (auto name = begin; name != end; ++name) out.push_back(state.cameras[a].name + "." + *name);
+    return out;
   }
-  if (problem.free_bending) out.bending = out.count, out.count += 2;
+  const std::string frame = fmt::format("the rig in frame {}", id.a + 1);
+  const std::string target = id.kind == Kind::rig ? frame : problem.targets[a].name;
+  if (id.kind == Kind::bending) return {"the bending of the " + target, "the bending of the " + target};
+  if (id.kind == Kind::point) {
+    for (const char* axis : {"x", "y", "z"})
+      out.push_back(fmt::format("{} of point {} of the {}", axis, id.b, target));
+    return out;
+  }
+  for (const char* name : pose) out.push_back(fmt::format("the pose ({}) of the {}", name, target));
   return out;
 }
 
-struct FrameSums {
-  Eigen::MatrixXd n_aa, n_ap;
-  Eigen::Matrix<double, 6, 6> n_pp = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::VectorXd g_a;
-  Eigen::Matrix<double, 6, 1> g_p = Eigen::Matrix<double, 6, 1>::Zero();
-};
-
-void add(const BundleProblem& problem, const BundleState& state, const Columns& columns,
-         const CornerObservation& corner, FrameSums& sums, double& squared) {
-  const auto c = static_cast<std::size_t>(corner.camera);
-  const Pose& board = state.rig_from_board[static_cast<std::size_t>(corner.frame)];
-  const Eigen::Vector3d turned = board.r * board_point(problem, state, corner.point);
-  const auto at = project_with_derivatives(state.cameras[c], turned + board.t_m);
-  if (!at) throw Error(ErrorKind::internal, "a used corner of the adjustment does not project");
-  Eigen::Matrix<double, 2, Eigen::Dynamic> a =
-      Eigen::Matrix<double, 2, Eigen::Dynamic>::Zero(2, columns.count);
-  a.middleCols(columns.lens[c], at->by_parameters.cols()) = at->by_parameters;
-  if (columns.pose[c] >= 0) a.middleCols<6>(columns.pose[c]) = at->by_pose;
-  if (columns.bending >= 0)
-    a.middleCols<2>(columns.bending) =
-        at->by_point * board.r.col(2) * problem.bending[static_cast<std::size_t>(corner.point)].transpose();
-  Eigen::Matrix<double, 2, 6> p;
-  p << -at->by_point * cross_matrix(turned), at->by_point;
-  const Eigen::Vector2d r = corner.pixel - at->pixel;
-  sums.n_aa.noalias() += a.transpose() * a;
-  sums.n_ap.noalias() += a.transpose() * p;
-  sums.n_pp.noalias() += p.transpose() * p;
-  sums.g_a.noalias() += a.transpose() * r;
-  sums.g_p.noalias() += p.transpose() * r;
-  squared += r.squaredNorm();
+// Lens and pose of each camera first.
+std::vector<BlockId> kept_in_order(const Blocks& blocks, const Elimination& elimination) {
+  std::vector<BlockId> out;
+  for (const auto& [id, block] : blocks.all())
+    if (!elimination.eliminated(id)) out.push_back(id);
+  std::stable_sort(out.begin(), out.end(), [](const BlockId& a, const BlockId& b) {
+    const auto key = [](const BlockId& id) {
+      const bool rig = id.kind == Kind::lens || id.kind == Kind::camera;
+      return std::tuple(rig ? 0 : 1, rig ? id.a : 0, id);
+    };
+    return key(a) < key(b);
+  });
+  return out;
 }
+
+std::vector<int> free_values(const Block& block) {
+  std::vector<int> out;
+  for (int i = 0; i < block.size; ++i)
+    if (std::find(block.held.begin(), block.held.end(), i) == block.held.end()) out.push_back(i);
+  return out;
+}
+
+Columns lay_out(const BundleProblem& problem, const BundleState& state, const Blocks& blocks,
+                const Elimination& elimination, NormalEquations& out) {
+  Columns columns;
+  for (const BlockId& id : kept_in_order(blocks, elimination)) {
+    Column& column = columns[id];
+    column.free = free_values(blocks.all().at(id));
+    column.first = static_cast<Eigen::Index>(out.names.size());
+    const std::vector<std::string> names = block_names(problem, state, id);
+    for (const int i : column.free) {
+      out.names.push_back(names[static_cast<std::size_t>(i)]);
+      if (id.kind == Kind::lens || id.kind == Kind::camera) out.order.push_back(out.names.back());
+    }
+  }
+  out.parameters = static_cast<int>(out.names.size());
+  for (const auto& [id, block] : blocks.all()) {
+    if (!elimination.eliminated(id)) continue;
+    columns[id].free = free_values(block);
+    out.parameters += static_cast<int>(columns[id].free.size());
+  }
+  return columns;
+}
+
+// The terms of one cell in columns of their own: those that are kept, then those that are eliminated.
+class Cell {
+ public:
+  Cell(const Blocks& blocks, const Columns& columns, const std::vector<const Term*>& terms)
+      : blocks_(blocks), columns_(columns) {
+    for (const bool kept : {true, false}) {
+      for (const Term* term : terms)
+        for (const BlockId& id : term->blocks) {
+          const Column& column = columns.at(id);
+          if ((column.first >= 0) != kept || !local_.emplace(id, size_).second) continue;
+          const auto n = static_cast<Eigen::Index>(column.free.size());
+          for (Eigen::Index i = 0; kept && i < n; ++i) global_.push_back(column.first + i);
+          size_ += n;
+        }
+      if (kept) kept_ = size_;
+    }
+    normal_.setZero(size_, size_);
+  }
+
+  void add(const Term& term, int frame, NormalEquations& out) {
+    const int rows = term.cost->num_residuals();
+    std::vector<const double*> values;
+    std::vector<RowMajorMatrix> jacobians;
+    std::vector<double*> pointers;
+    for (const BlockId& id : term.blocks) {
+      values.push_back(blocks_.all().at(id).values);
+      jacobians.emplace_back(rows, blocks_.all().at(id).size);
+    }
+    for (RowMajorMatrix& j : jacobians) pointers.push_back(j.data());
+    Eigen::VectorXd r(rows);
+    if (!term.cost->Evaluate(values.data(), r.data(), pointers.data()))
+      throw Error(ErrorKind::internal, "a used corner of the adjustment does not project");
+    Matrix row = Matrix::Zero(rows, size_);
+    for (std::size_t k = 0; k < term.blocks.size(); ++k) {
+      const std::vector<int>& free = columns_.at(term.blocks[k]).free;
+      const Eigen::Index first = local_.at(term.blocks[k]);
+      for (std::size_t i = 0; i < free.size(); ++i)
+        row.col(first + static_cast<Eigen::Index>(i)) = jacobians[k].col(free[i]);
+    }
+    normal_.noalias() += row.transpose() * row;
+    const auto [score, fresh] = score_.try_emplace(frame);
+    if (fresh) score->second.setZero(size_);
+    score->second.noalias() -= row.transpose() * r;  // measured minus projected
+    out.squared_residuals += r.squaredNorm();
+    out.observations += rows;
+    if (term.corner < 0) return;
+    out.corner_squares += r.squaredNorm();
+    out.coordinates += rows;
+  }
+
+  void eliminate(NormalEquations& out, std::map<int, Eigen::VectorXd>& scores) const {
+    const Eigen::Index gone = size_ - kept_;
+    Matrix left = normal_.topLeftCorner(kept_, kept_);
+    Matrix solved(gone, kept_);
+    Eigen::LDLT<Matrix> inner;
+    if (gone > 0) {
+      inner.compute(normal_.bottomRightCorner(gone, gone));
+      if (inner.info() != Eigen::Success || !inner.isPositive() || !(inner.vectorD().minCoeff() > 0))
+        throw Error(ErrorKind::numeric, "the corners of a frame do not determine the pose of the board");
+      solved = inner.solve(normal_.bottomLeftCorner(gone, kept_));
+      left.noalias() -= normal_.topRightCorner(kept_, gone) * solved;
+    }
+    for (Eigen::Index j = 0; j < kept_; ++j)
+      for (Eigen::Index i = 0; i < kept_; ++i) out.information(at(i), at(j)) += left(i, j);
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(gone);
+    for (const auto& [frame, score] : score_) {
+      const Eigen::VectorXd tail = score.tail(gone);
+      const Eigen::VectorXd kept = score.head(kept_) - solved.transpose() * tail;
+      const auto [sum, fresh] = scores.try_emplace(frame);
+      if (fresh) sum->second.setZero(out.information.rows());
+      for (Eigen::Index i = 0; i < kept_; ++i) sum->second[at(i)] += kept[i];
+      all += tail;
+    }
+    if (gone > 0) out.pose_decrement += all.dot(inner.solve(all));
+  }
+
+ private:
+  Eigen::Index at(Eigen::Index local) const { return global_[static_cast<std::size_t>(local)]; }
+
+  const Blocks& blocks_;
+  const Columns& columns_;
+  std::map<BlockId, Eigen::Index> local_;
+  std::vector<Eigen::Index> global_;  // of the kept
+  Eigen::Index size_ = 0, kept_ = 0;
+  Matrix normal_;
+  std::map<int, Eigen::VectorXd> score_;  // of each frame
+};
 
 }  // namespace
 
 Eigen::VectorXd NormalEquations::score() const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(information.rows());
+  Eigen::VectorXd out = known_score;
   for (const Frame& frame : frames) out += frame.score;
   return out;
 }
 
 double NormalEquations::rms_px() const {
-  return observations > 0 ? std::sqrt(squared_residuals / observations) : 0;
+  return coordinates > 0 ? std::sqrt(corner_squares / coordinates) : 0;
 }
 
 double NormalEquations::sigma_px() const {
@@ -75,49 +221,38 @@ double NormalEquations::sigma_px() const {
 }
 
 NormalEquations normal_equations(const BundleProblem& problem, const BundleState& state) {
-  const Columns columns = columns_of(problem, state);
+  BundleState at = state;
+  const Blocks blocks(problem, at);
+  const Elimination elimination(problem);
   NormalEquations out;
-  for (std::size_t c = 0; c < state.cameras.size(); ++c) {
-    std::vector<std::string> names = parameter_names(state.cameras[c]);
-    if (c == 0) names.resize(state.cameras[c].parameters.size());
-    for (const std::string& name : names) out.order.push_back(state.cameras[c].name + "." + name);
+  const Columns columns = lay_out(problem, state, blocks, elimination, out);
+  std::map<std::pair<int, int>, std::vector<const Term*>> cells;
+  for (const Term& term : blocks.terms()) cells[elimination.cell(term)].push_back(&term);
+  const auto n = static_cast<Eigen::Index>(out.names.size());
+  out.information.setZero(n, n);
+  out.known_score.setZero(n);
+  constexpr int no_frame = -1;
+  std::map<int, Eigen::VectorXd> scores;
+  for (const auto& [key, terms] : cells) {
+    Cell cell(blocks, columns, terms);
+    for (const Term* term : terms)
+      cell.add(*term,
+               term->corner < 0 ? no_frame : problem.corners[static_cast<std::size_t>(term->corner)].frame,
+               out);
+    cell.eliminate(out, scores);
   }
-  out.bending = problem.free_bending ? 2 : 0;
-  std::map<int, FrameSums> frames;
-  for (const CornerObservation& corner : problem.corners) {
-    if (!corner.used) continue;
-    const auto [at, fresh] = frames.try_emplace(corner.frame);
-    FrameSums& sums = at->second;
-    if (fresh) {
-      sums.n_aa.setZero(columns.count, columns.count);
-      sums.n_ap.setZero(columns.count, 6);
-      sums.g_a.setZero(columns.count);
-    }
-    add(problem, state, columns, corner, sums, out.squared_residuals);
-    out.observations += 2;
+  for (auto& [frame, score] : scores) {
+    if (frame == no_frame)
+      out.known_score = std::move(score);
+    else
+      out.frames.push_back({frame, std::move(score)});
   }
-  out.information.setZero(columns.count, columns.count);
-  for (const auto& [frame, sums] : frames) {
-    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> pose(sums.n_pp);
-    if (pose.info() != Eigen::Success || !pose.isPositive())
-      throw Error(ErrorKind::numeric, "the corners of a frame do not determine the pose of the board");
-    const Eigen::MatrixXd eliminated = pose.solve(sums.n_ap.transpose());
-    const Eigen::Matrix<double, 6, 1> step = pose.solve(sums.g_p);
-    out.information += sums.n_aa - sums.n_ap * eliminated;
-    out.frames.push_back({frame, sums.g_a - sums.n_ap * step});
-    out.pose_decrement += sums.g_p.dot(step);
-  }
-  out.parameters = static_cast<int>(columns.count) + 6 * static_cast<int>(frames.size());
   return out;
 }
 
 Eigen::MatrixXd cofactors(const NormalEquations& equations) {
   const Eigen::MatrixXd& n = equations.information;
   const Eigen::VectorXd diagonal = n.diagonal();
-  const auto name = [&](Eigen::Index i) {
-    const auto k = static_cast<std::size_t>(i);
-    return k < equations.order.size() ? equations.order[k] : std::string("the bending of the board");
-  };
   Eigen::Index worst = 0;
   constexpr double least_reciprocal_condition = 1e-13;
   if (diagonal.minCoeff(&worst) > 0 && n.allFinite()) {
@@ -134,7 +269,7 @@ Eigen::MatrixXd cofactors(const NormalEquations& equations) {
        "the views do not determine {}: show the target tilted by 30 to 45 degrees in several directions, "
        "over the whole "
        "image, or ask for fewer lens parameters",
-       name(worst));
+       equations.names[static_cast<std::size_t>(worst)]);
 }
 
 Eigen::MatrixXd sandwich(const NormalEquations& equations, const Eigen::MatrixXd& cofactors) {

@@ -1,32 +1,37 @@
-// The linearised adjustment at its solution, board poses eliminated frame by frame (Schur complement): what
-// the iid covariance, the covariance clustered by frame and the test of convergence are made from.
+// The linearised adjustment at its solution. What belongs to one frame alone (the pose of the rig or of a
+// board in it), or to one point of nature, is eliminated (Schur complement); what is kept makes the
+// covariances, iid and clustered by frame, and the test of convergence.
 #pragma once
 #include <string>
 #include <vector>
 
-#include "calibrate/adjustment/bundle_adjustment.h"
+#include "calibrate/adjustment/network.h"
 
 namespace bpms {
 
-// Free parameters in order: camera by camera its lens parameters, then rotation vector (left perturbation)
-// and translation of all cameras but the first; the board's bending last when it is free.
+// Kept parameters in order: camera by camera its lens parameters, then rotation vector (left perturbation)
+// and translation of all cameras but the first: these are the rig's, named in `order`. Then bendings, poses
+// of what stands, points, and the rig's poses where points of nature tie frames together.
 struct NormalEquations {
-  std::vector<std::string> order;  // without the bending
-  int bending = 0;                 // 0 or 2 more columns
-  Eigen::MatrixXd information;     // J'J with the poses eliminated, for residuals in pixels
+  std::vector<std::string> order;  // of the rig's
+  std::vector<std::string> names;  // of all that are kept
+  Eigen::MatrixXd information;     // J'J, the others eliminated, for residuals in pixels
   struct Frame {
     int frame = 0;
-    Eigen::VectorXd score;  // J'r of this frame alone, its pose eliminated
+    Eigen::VectorXd score;  // J'r of this frame alone, the others eliminated
   };
-  std::vector<Frame> frames;  // those with corners
-  double squared_residuals = 0;
+  std::vector<Frame> frames;     // those with corners
+  Eigen::VectorXd known_score;   // of what is known beforehand
+  double squared_residuals = 0;  // of corners and of what is known beforehand
+  double corner_squares = 0;
   double pose_decrement =
-      0;                 // what a Gauss-Newton step of the poses alone would take off the squared residuals
-  int observations = 0;  // two each corner
-  int parameters = 0;    // all free ones, poses included
+      0;  // what a Gauss-Newton step of the eliminated alone would take off the squared residuals
+  int observations = 0;  // two each corner, and what is known beforehand
+  int coordinates = 0;   // two each corner
+  int parameters = 0;    // all free ones
 
   Eigen::VectorXd score() const;
-  double rms_px() const;
+  double rms_px() const;    // of the corners
   double sigma_px() const;  // with degrees of freedom; 0 when there are none left
 };
 

@@ -19,7 +19,7 @@ bool mark(BundleProblem& problem, const BundleState& state, double limit_px, std
   std::vector<bool> good(problem.corners.size());
   for (std::size_t i = 0; i < problem.corners.size(); ++i) {
     const auto r = residual(problem, state, problem.corners[i]);
-    good[i] = r && r->norm() <= limit_px;
+    good[i] = problem.corners[i].placed && r && r->norm() <= limit_px;
     const auto view = static_cast<std::size_t>(problem.corners[i].view);
     ++all[view];
     bad[view] += good[i] ? 0 : 1;
@@ -56,7 +56,7 @@ void judge_views(const BundleProblem& problem, const BundleState& state, std::si
 OutlierSearch fit_without_outliers(BundleProblem& problem, int views, BundleState& state) {
   OutlierSearch out;
   for (CornerObservation& corner : problem.corners)
-    corner.used = residual(problem, state, corner).has_value();
+    corner.used = corner.placed && residual(problem, state, corner).has_value();
   constexpr int robust_rounds = 2, most_rounds = 10;
   constexpr double rough = 1e-3;
   for (int round = 0; round < robust_rounds; ++round) {
@@ -67,6 +67,7 @@ OutlierSearch fit_without_outliers(BundleProblem& problem, int views, BundleStat
     out.sigma_px = std::max(robust_sigma(problem, state), least_sigma_px);
     const bool changed = mark(problem, state, corner_sigmas * out.sigma_px, static_cast<std::size_t>(views));
     if (round > 0 && !changed) break;
+    problem.sigma_px = std::max(robust_sigma(problem, state), least_sigma_px);
     out.last = adjust(problem, {}, state);
   }
   judge_views(problem, state, static_cast<std::size_t>(views), out);

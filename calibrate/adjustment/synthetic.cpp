@@ -48,11 +48,10 @@ Pose held_board(const Target& target, double focal_px, Philox& random) {
 }
 
 bool whole_in_every_image(const BundleProblem& board, const BundleState& state, int frame) {
-  for (const Camera& camera : state.cameras) {
-    for (int i = 0; i < static_cast<int>(board.points_m.size()); ++i) {
-      const Eigen::Vector3d x =
-          state.rig_from_board[static_cast<std::size_t>(frame)] * board_point(board, state, i);
-      const auto pixel = project(camera, camera.camera_from_rig(x));
+  for (std::size_t c = 0; c < state.cameras.size(); ++c) {
+    for (int i = 0; i < static_cast<int>(board.targets[0].points_m.size()); ++i) {
+      const Eigen::Vector3d x = rig_from_target(board, state, 0, frame) * target_point(board, state, 0, i);
+      const auto pixel = project(state.cameras[c], state.cameras[c].camera_from_rig(x));
       constexpr double margin_px = 2;
       if (!pixel || !((pixel->array() > margin_px).all() && pixel->x() < width_px - 1 - margin_px &&
                       pixel->y() < height_px - 1 - margin_px))
@@ -62,34 +61,39 @@ bool whole_in_every_image(const BundleProblem& board, const BundleState& state, 
   return true;
 }
 
-BundleProblem board_of(const Target& target) {
+}  // namespace
+
+BundleProblem SyntheticCalibration::problem() const {
   BundleProblem out;
-  out.points_m = target.points_m();
-  out.bending = target.bending();
+  out.targets.emplace_back();
+  out.targets[0].name = "board";
+  out.targets[0].points_m = target.points_m();
+  out.targets[0].bending = target.bending();
+  out.frames = static_cast<int>(truth.world_from_target.empty() ? 0 : truth.world_from_target[0].size());
   return out;
 }
-
-}  // namespace
 
 SyntheticCalibration synthetic_calibration(const SyntheticOptions& options) {
   SyntheticCalibration out;
   out.target.columns = 9;
   out.target.rows = 6;
   out.target.square_m = 0.025;
-  out.truth.bending_m = options.bending_m;
   Philox random(options.seed);
+  std::vector<Camera> cameras;
   for (int c = 0; c < options.cameras; ++c)
-    out.truth.cameras.push_back(
-        make_camera(c, lens_choice(options.lens).parameters, options.focal_px, random));
-  const BundleProblem board = board_of(out.target);
+    cameras.push_back(make_camera(c, lens_choice(options.lens).parameters, options.focal_px, random));
+  BundleProblem board = out.problem();
+  board.frames = options.frames;
+  out.truth = empty_state(board, std::move(cameras));
+  out.truth.bending_m[0] = options.bending_m;
   for (int f = 0; f < options.frames; ++f) {
-    out.truth.rig_from_board.emplace_back();
     constexpr int most_trials = 100'000;
     int trial = 0;
     do {
       if (++trial > most_trials)
         throw Error(ErrorKind::numeric, "no place for the board that all cameras see");
-      out.truth.rig_from_board.back() = held_board(out.target, options.focal_px, random);
+      out.truth.world_from_target[0][static_cast<std::size_t>(f)] =
+          held_board(out.target, options.focal_px, random);
     } while (!whole_in_every_image(board, out.truth, f));
   }
   return out;
@@ -97,16 +101,17 @@ SyntheticCalibration synthetic_calibration(const SyntheticOptions& options) {
 
 Observations observe(const SyntheticCalibration& scene, double sigma_px, std::uint64_t seed) {
   Observations out;
-  const BundleProblem board = board_of(scene.target);
+  const BundleProblem board = scene.problem();
   Philox random(seed, 1);
   for (std::size_t c = 0; c < scene.truth.cameras.size(); ++c) {
     const Camera& camera = scene.truth.cameras[c];
     out.cameras.push_back({camera.name, camera.width_px, camera.height_px});
-    for (std::size_t f = 0; f < scene.truth.rig_from_board.size(); ++f) {
+    for (std::size_t f = 0; f < scene.truth.world_from_target[0].size(); ++f) {
       const std::string frame = fmt::format("{:02}", f + 1);
       BoardView view{camera.name + frame, static_cast<int>(c), frame, {}};
       for (int i = 0; i < scene.target.size(); ++i) {
-        const Eigen::Vector3d x = scene.truth.rig_from_board[f] * board_point(board, scene.truth, i);
+        const Eigen::Vector3d x =
+            scene.truth.world_from_target[0][f] * target_point(board, scene.truth, 0, i);
         const Eigen::Vector2d noise(random.normal(), random.normal());
         view.corners.push_back({i, *project(camera, camera.camera_from_rig(x)) + sigma_px * noise});
       }

@@ -3,7 +3,7 @@
 #pragma once
 #include <cstdint>
 
-#include "calibrate/adjustment/bundle_adjustment.h"
+#include "calibrate/adjustment/network.h"
 #include "calibrate/observations.h"
 #include "calibrate/targets/target.h"
 
@@ -11,7 +11,8 @@ namespace bpms {
 
 struct SyntheticCalibration {
   Target target;
-  BundleState truth;  // cameras, board poses, bending
+  BundleState truth;              // cameras, board poses, bending
+  BundleProblem problem() const;  // without corners
 };
 
 struct SyntheticOptions {

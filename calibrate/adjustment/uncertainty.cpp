@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibrate/adjustment/bundle_adjustment.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
 
@@ -55,8 +56,7 @@ Clustered jackknife(const BundleProblem& problem, const BundleState& solution,
 
 Pose relative_pose(const std::vector<Camera>& cameras, int a, int b) {
   const Camera &from = cameras[static_cast<std::size_t>(a)], &to = cameras[static_cast<std::size_t>(b)];
-  return Pose{to.r_cam_from_rig, to.t_cam_from_rig_m} *
-         Pose{from.r_cam_from_rig, from.t_cam_from_rig_m}.inverse();
+  return camera_pose(to) * camera_pose(from).inverse();
 }
 
 // t = t_b - R_ba t_a with R_ba = exp(w_b) R_ba exp(-w_a).

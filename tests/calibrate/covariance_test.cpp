@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calibrate/adjustment/bundle_adjustment.h"
 #include "calibrate/adjustment/normal_equations.h"
 #include "calibrate/adjustment/synthetic.h"
 #include "calibrate/adjustment/uncertainty.h"
@@ -56,15 +57,12 @@ TEST(Covariance, IsWhatTheErrorsAre) {
 }
 
 BundleProblem whole_problem(const SyntheticCalibration& scene, const Observations& observations) {
-  BundleProblem out;
-  out.points_m = scene.target.points_m();
-  out.bending = scene.target.bending();
-  out.frames = static_cast<int>(scene.truth.rig_from_board.size());
+  BundleProblem out = scene.problem();
   for (std::size_t v = 0; v < observations.views.size(); ++v) {
     const BoardView& view = observations.views[v];
     for (const ImageCorner& c : view.corners)
       out.corners.push_back(
-          {static_cast<int>(v), static_cast<int>(v) % out.frames, view.camera, c.point, c.pixel});
+          {static_cast<int>(v), static_cast<int>(v) % out.frames, view.camera, 0, c.point, c.pixel});
   }
   return out;
 }

@@ -38,8 +38,8 @@ TEST(SampleSet, ReferenceCornersGiveTheReferenceSolution) {
   EXPECT_NEAR(c.residual_rms_px, 0.147, 0.001);
   EXPECT_NEAR(c.residual_sigma_px, 0.150, 0.001);
   EXPECT_EQ(c.corners_used, 1404);
-  EXPECT_NEAR(c.board_warp_m.x(), 0.022e-3, 0.001e-3);
-  EXPECT_NEAR(c.board_warp_m.y(), -0.172e-3, 0.001e-3);
+  EXPECT_NEAR(c.targets[0].warp_m.x(), 0.022e-3, 0.001e-3);
+  EXPECT_NEAR(c.targets[0].warp_m.y(), -0.172e-3, 0.001e-3);
   // Reference uncertainties: iid 0.043, jackknife by frame 0.132 mm; fx 0.32 and 1.04 px.
   EXPECT_NEAR(c.pairs[0].baseline_sigma_m, 0.043e-3, 0.001e-3);
   EXPECT_NEAR(c.pairs[0].baseline_sigma_clustered_m.value(), 0.132e-3, 0.002e-3);
@@ -56,7 +56,7 @@ TEST(SampleSet, AFlatBoardGivesWhatOpenCvFinds) {
       calibrate(corners("corners_sub5.vnl"), board(), {.board_warp = false, .uncertainty = false});
   EXPECT_NEAR(c.pairs[0].baseline_m, 83.183e-3, 0.001e-3);
   EXPECT_NEAR(c.residual_rms_px, 0.1522, 0.0001);  // OpenCV's 0.2153 px a corner over sqrt(2)
-  EXPECT_EQ(c.board_warp_m, Eigen::Vector2d::Zero());
+  EXPECT_EQ(c.targets[0].warp_m, Eigen::Vector2d::Zero());
 }
 
 TEST(SampleSet, BadCornersAreFoundAndNamed) {

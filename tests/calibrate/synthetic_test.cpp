@@ -28,7 +28,7 @@ TEST_P(NoiseFree, FindsTheTruthFromNothing) {
   const double tolerance = GetParam().lens == "brown8" ? 1e-4 : 1e-7;
   for (Eigen::Index i = 0; i < off.size(); ++i)
     EXPECT_LT(std::abs(off[i]), tolerance) << c.rig.covariance->order[static_cast<std::size_t>(i)];
-  EXPECT_LT((c.board_warp_m - scene.truth.bending_m).norm(), 1e-10);
+  EXPECT_LT((c.targets[0].warp_m - scene.truth.bending_m[0]).norm(), 1e-10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, NoiseFree,
@@ -41,9 +41,9 @@ INSTANTIATE_TEST_SUITE_P(Rigs, NoiseFree,
 TEST(Clustered, SeesErrorsThatFramesShare) {
   SyntheticCalibration scene = synthetic_calibration({.frames = 13, .bending_m = {0, 0}, .seed = 11});
   Observations together = observe(scene, 0.02, 1);
-  for (std::size_t f = 0; f < scene.truth.rig_from_board.size(); ++f) {
+  for (std::size_t f = 0; f < scene.truth.world_from_target[0].size(); ++f) {
     SyntheticCalibration bent = scene;
-    bent.truth.bending_m = Eigen::Vector2d(f % 2 ? 1 : -1, f % 3 ? 0.5 : -1) * 0.4e-3;
+    bent.truth.bending_m[0] = Eigen::Vector2d(f % 2 ? 1 : -1, f % 3 ? 0.5 : -1) * 0.4e-3;
     const Observations there = observe(bent, 0.02, 1);
     for (std::size_t v = 0; v < together.views.size(); ++v) {
       if (together.views[v].frame == fmt::format("{:02}", f + 1)) together.views[v] = there.views[v];
@@ -125,10 +125,25 @@ TEST(Calibrate, RefusesWhatCannotBeSolved) {
 
 // Boards square to the axis leave the focal length open.
 TEST(Calibrate, SaysWhatTheViewsDoNotDetermine) {
-  SyntheticCalibration scene = synthetic_calibration({.cameras = 1, .frames = 4});
-  for (std::size_t f = 0; f < 4; ++f)
-    scene.truth.rig_from_board[f] = {Eigen::Matrix3d::Identity(), {-0.1, -0.06, 0.5}};
-  BPMS_EXPECT_ERROR(calibrate(observe(scene, 0, 1), scene.target), ErrorKind::numeric, "");
+  SyntheticCalibration scene = synthetic_calibration({.cameras = 1, .frames = 6});
+  for (std::size_t f = 0; f < 6; ++f)
+    scene.truth.world_from_target[0][f] = {Eigen::Matrix3d::Identity(), {-0.1, -0.06, 0.5}};
+  BPMS_EXPECT_ERROR(calibrate(observe(scene, 0, 1), scene.target), ErrorKind::numeric, "do not determine");
+  // Parallel boards at several distances, with noise: a number comes out, and it is not believed.
+  for (std::size_t f = 0; f < 6; ++f)
+    scene.truth.world_from_target[0][f].t_m = {-0.1, -0.06, 0.4 + 0.05 * static_cast<double>(f)};
+  for (std::uint64_t seed = 1; seed < 6; ++seed)
+    BPMS_EXPECT_ERROR(calibrate(observe(scene, 0.1, seed), scene.target), ErrorKind::numeric, "cameraA.f");
+}
+
+// The size of a square is an error that no residual shows; a bar that was measured by itself does.
+TEST(Calibrate, SaysByHowMuchAScaleBarContradicts) {
+  SyntheticCalibration scene = synthetic_calibration({.cameras = 1});
+  scene.target.scale_bars = {{0, 8, 8 * 0.0255, 1e-4}};
+  BPMS_EXPECT_ERROR(calibrate(observe(scene, 0.1, 1), scene.target), ErrorKind::bad_input,
+                    "1.02 times as large as given");
+  scene.target.scale_bars = {{0, 8, 8 * 0.025 + 2e-4, 1e-4}};
+  EXPECT_TRUE(calibrate(observe(scene, 0.1, 1), scene.target, {.uncertainty = false}).converged);
 }
 
 }  // namespace
