@@ -88,7 +88,8 @@ class PythonReader {
       if (out.find(key) != nullptr) bad_input(key_at, "the key {} is there twice", in_quotes(key));
       expect(':', "':' after a key");
       PythonLiteral item = value(depth + 1);
-      out.entries.emplace_back(key, std::move(item));
+      out.keys.push_back(key);
+      out.items.push_back(std::move(item));
       skip();
       if (here() == ',')
         step();
@@ -159,8 +160,8 @@ class PythonReader {
 }  // namespace
 
 const PythonLiteral* PythonLiteral::find(std::string_view key) const {
-  for (const auto& [name, value] : entries)
-    if (name == key) return &value;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (keys[i] == key) return &items[i];
   return nullptr;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -13,10 +12,10 @@ namespace bpms {
 struct PythonLiteral {
   enum class Kind { none, truth, number, text, bytes, list, dictionary };
   Kind kind = Kind::none;
-  double number = 0;  // 0 or 1 of a truth
-  std::string text;   // bytes are passed over and stay empty
-  std::vector<PythonLiteral> items;
-  std::vector<std::pair<std::string, PythonLiteral>> entries;
+  double number = 0;                 // 0 or 1 of a truth
+  std::string text;                  // bytes are passed over and stay empty
+  std::vector<PythonLiteral> items;  // of a list, or the values of a dictionary
+  std::vector<std::string> keys;
   SourceLocation where;
 
   const PythonLiteral* find(std::string_view key) const;

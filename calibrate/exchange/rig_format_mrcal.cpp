@@ -17,7 +17,7 @@ namespace bpms {
 namespace {
 
 constexpr std::string_view splined_prefix = "LENSMODEL_SPLINED_STEREOGRAPHIC_";
-constexpr std::string_view splined_model = "splined";
+constexpr std::string_view splined_model = "splined_stereographic";
 
 const PythonLiteral& required(const PythonLiteral& file, const char* key) {
   const PythonLiteral* found = file.find(key);
@@ -84,6 +84,11 @@ RigFromFile read_mrcal(const std::vector<std::string>& paths, const RigReading& 
 std::string mrcal_model(const Camera& camera) {
   if (camera.model == splined_model && camera.constants.size() == 4) {
     const std::vector<double>& c = camera.constants;
+    for (const double number : c) {
+      if (number != std::round(number))
+        bad_input({}, "camera {}: mrcal's splines span whole degrees, this one {}", in_quotes(camera.name),
+                  number);
+    }
     return fmt::format("{}order={}_Nx={}_Ny={}_fov_x_deg={}", splined_prefix, c[0], c[1], c[2], c[3]);
   }
   if (camera.model == "brown_conrady") {
