@@ -9,7 +9,9 @@
 // besides (blur, what the lens model lacks), which sigma does not know: a covariance clustered by frame is
 // larger than the iid one by the mean of such errors over its n frames, so n times the difference is what the
 // one frame of a shot adds, T = n (C - C_iid), as an error of the rig in this frame alone: S also has J_rig T
-// J_rig'. Without it one in four shots of a sound real rig was refused.
+// J_rig'. There C is C_iid
+// times one factor, the mean ratio of the variances. Without T one in four shots of a sound real rig was
+// refused.
 #pragma once
 #include <optional>
 #include <string>

@@ -156,10 +156,14 @@ RigErrors rig_errors_of(const Rig& rig) {
       eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal().toDenseMatrix();
   out.root = sigma.asDiagonal() * half;
   out.frame_root.resize(c.rows(), 0);
-  if (known.kind == "clustered" && known.frames > 0 && known.sigma_iid.size() == sigma.size()) {
-    const Eigen::VectorXd more = (sigma.array().square() - known.sigma_iid.array().square()).max(0).sqrt();
-    out.frame_root = std::sqrt(static_cast<double>(known.frames)) * (more.asDiagonal() * half);
-  }
+  if (known.kind != "clustered" || known.frames < 1 || known.sigma_iid.size() != sigma.size()) return out;
+  // One factor for all numbers: factors of their own would undo what cancels between them (a turn of a camera
+  // and its principal point), and a camera turned by half a degree would pass.
+  const Eigen::VectorXd& iid = known.sigma_iid;
+  const Eigen::ArrayXd ratio = (iid.array() > 0).select(sigma.array() / iid.array(), 1.0);
+  const double factor = std::max(1.0, ratio.square().mean());
+  out.root = std::sqrt(factor) * (iid.asDiagonal() * half);
+  out.frame_root = std::sqrt(known.frames * (factor - 1)) * (iid.asDiagonal() * half);
   return out;
 }
 
