@@ -94,9 +94,9 @@ void check_rig_of(const Cli& cli, const CheckRigArguments& arguments) {
   if (arguments.images.empty()) bad_input({}, "--check: no images of the board are given");
   std::vector<std::string> names;
   for (const Camera& camera : rig.cameras) names.push_back(camera.name);
-  const Observations shot =
-      find_corners(expand_patterns(arguments.images), target,
-                   [&names](const std::string& path) { return parse_shot_name(path, names); });
+  FindOptions finding;
+  finding.name_of = [&names](const std::string& path) { return parse_shot_name(path, names); };
+  const Observations shot = find_corners(expand_patterns(arguments.images), target, finding);
   for (const auto& [image, reason] : shot.skipped) note(fmt::format("skipped {}: {}", image, reason));
   if (shot.views.empty())
     bad_input({}, "no image shows the board{}",
