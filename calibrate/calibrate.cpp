@@ -233,6 +233,10 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
   out.rig.covariance =
       rig_covariance(equations, inverse, out.sigma_iid, clustered ? out.sigma_clustered : out.sigma_iid,
                      clustered ? "clustered" : "iid");
+  if (clustered) {
+    out.rig.covariance->frames = out.frames;
+    out.rig.covariance->sigma_iid = out.sigma_iid;
+  }
   for (std::size_t c = 0; c < state.cameras.size(); ++c)
     out.projection.push_back(projection_uncertainty(
         state.cameras[c], lens_covariance(*out.rig.covariance, state.cameras[c]), {.range_m = ranges_m[c]}));

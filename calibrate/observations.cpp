@@ -56,6 +56,29 @@ ImageName parse_image_name(const std::string& path) {
   return out;
 }
 
+ImageName parse_shot_name(const std::string& path, const std::vector<std::string>& cameras) {
+  const std::string stem = std::filesystem::path(path).stem().string();
+  const bool digits = std::any_of(stem.begin(), stem.end(), is_digit);
+  ImageName out{without_separators(stem), "1"};
+  if (digits) out = parse_image_name(path);
+  const auto known = [&](const std::string& name) {
+    return std::find(cameras.begin(), cameras.end(), name) != cameras.end();
+  };
+  if (known(out.camera)) return out;
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= out.camera.size();) {
+    const std::size_t end = std::min(out.camera.find_first_of("_-. ", at), out.camera.size());
+    if (known(out.camera.substr(at, end - at))) words.push_back(out.camera.substr(at, end - at));
+    at = end + 1;
+  }
+  if (words.size() != 1)
+    bad_input({path},
+              "the name does not say which camera it is of: {}; expected one of them in it, as in {}1.png",
+              fmt::join(cameras, ", "), cameras.empty() ? "left" : cameras.front());
+  out.camera = words.front();
+  return out;
+}
+
 Observations read_corners(const std::string& path, int width_px, int height_px, int corners_per_image) {
   const std::string text = read_text(path);
   TokenReader reader(path, text);

@@ -47,6 +47,9 @@ struct ImageName {
   std::string frame;
 };
 ImageName parse_image_name(const std::string& path);
+// The same for a shot with cameras that are known: "shot_left.png" is of the camera "left", for it is the one
+// of these that stands in the name; without digits the frame is "1".
+ImageName parse_shot_name(const std::string& path, const std::vector<std::string>& cameras);
 
 // Corners in mrcal's table, "# filename x y level": the corners of an image row by row, level "-" for one not
 // found.

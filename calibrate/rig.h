@@ -55,6 +55,11 @@ struct Rig {
     std::vector<std::string> order;
     Eigen::MatrixXd matrix;
     std::string kind = "iid";  // or "clustered"
+    // Of a clustered covariance, where known: the frames it was made from, and what the sigmas of `order`
+    // would be if corners erred independently. The rest of a variance, times the frames, is what one frame
+    // adds.
+    int frames = 0;
+    Eigen::VectorXd sigma_iid = {};
   };
   std::optional<Covariance> covariance;
   double residual_sigma_px = 0;  // 0: not known

@@ -98,6 +98,14 @@ Rig::Covariance read_covariance(const TomlValue& table, const Rig& rig) {
       matrix.reject(
           fmt::format("not positive semidefinite: least eigenvalue of the correlations {:.3g}", least));
   }
+  if (const TomlValue frames = table.get("frames"))
+    out.frames = static_cast<int>(frames.integer(1, 1'000'000));
+  if (const TomlValue sigma = table.get("sigma_iid")) {
+    const std::vector<double> values = sigma.numbers(n);
+    for (std::size_t i = 0; i < n; ++i)
+      if (values[i] < 0) sigma[i].reject("a sigma is negative");
+    out.sigma_iid = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(n));
+  }
   if (table.has("kind")) out.kind = table.get("kind").one_of({"iid", "clustered"});
   return out;
 }
@@ -187,6 +195,8 @@ std::string rig_toml(const Rig& rig, const std::string& comment) {
     for (Eigen::Index i = 0; i < c.matrix.rows(); ++i)
       out += (i ? ",\n          " : "") + numbers(c.matrix.row(i));
     out += "]\nkind = " + toml_string(c.kind) + "\n";
+    if (c.frames > 0) out += fmt::format("frames = {}\n", c.frames);
+    if (c.sigma_iid.size() > 0) out += "sigma_iid = " + numbers(c.sigma_iid) + "\n";
     if (rig.residual_sigma_px > 0) out += "residual_sigma_px = " + toml_number(rig.residual_sigma_px) + "\n";
   }
   return out;

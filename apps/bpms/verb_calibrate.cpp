@@ -2,14 +2,18 @@
 
 #include <filesystem>
 
+#include "apps/bpms/calibrate_check.h"
 #include "apps/bpms/calibrate_report.h"
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/images/find_corners.h"
+#include "calibrate/images/image_identity.h"
 #include "calibrate/lens_selection.h"
+#include "calibrate/targets/target_kind.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/nearest.h"
 #include "core/progress.h"
 #include "core/text.h"
 #include "core/units.h"
@@ -18,9 +22,10 @@ namespace bpms {
 namespace {
 
 struct CalibrateArguments {
-  std::vector<std::string> images;
-  std::vector<std::string> targets;
-  std::string corners, image_size, model = "brown4";
+  std::vector<std::string> images, targets;
+  std::string corners, image_size, debug_images, model = "brown4";
+  std::vector<std::string> identity;  // CAMERA.KEY=VALUE
+  CheckRigArguments check;
   double turntable_deg = 0;
   bool no_warp = false, moving_rig = false, free_points = false;
 };
@@ -38,6 +43,7 @@ std::pair<int, int> parse_size(const std::string& text) {
 
 void tell(const Calibration& c, const Observations& observations) {
   for (const auto& [image, reason] : observations.skipped) note(fmt::format("skipped {}: {}", image, reason));
+  for (const auto& [image, remark] : observations.remarks) note(fmt::format("{}: {}", image, remark));
   for (const auto& view : c.views) {
     if (view.outlier) note(fmt::format("outlier view {}: {}", view.image, view.reason));
   }
@@ -73,10 +79,49 @@ void tell_selection(const LensSelection& selection) {
   }
 }
 
+// From the images, then what the user says, which counts more.
+void identify_cameras(const Observations& observations, const std::vector<std::string>& said, Rig& rig) {
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    std::vector<std::string> images, differences;
+    for (const BoardView& view : observations.views)
+      if (view.camera == static_cast<int>(c) && std::filesystem::exists(view.image))
+        images.push_back(view.image);
+    rig.cameras[c].identity = common_identity(images, differences);
+    for (const std::string& line : differences) note(line);
+  }
+  for (const std::string& text : said) {
+    const std::size_t dot = text.find('.'), equals = text.find('=');
+    if (dot == std::string::npos || equals == std::string::npos || dot + 1 >= equals)
+      bad_input({}, "--identity {}; expected CAMERA.KEY=VALUE, as in left.serial=40123", in_quotes(text));
+    const int camera = rig.find(text.substr(0, dot));
+    std::vector<std::string> names;
+    for (const Camera& one : rig.cameras) names.push_back(one.name);
+    if (camera < 0)
+      bad_input({}, "--identity: no camera {}{}", in_quotes(text.substr(0, dot)),
+                did_you_mean(text.substr(0, dot), names));
+    rig.cameras[static_cast<std::size_t>(camera)].identity[text.substr(dot + 1, equals - dot - 1)] =
+        text.substr(equals + 1);
+  }
+}
+
+void run_check(const Cli& cli, const CalibrateArguments& options) {
+  CheckRigArguments check = options.check;
+  check.images.insert(check.images.end(), options.images.begin(), options.images.end());
+  if (options.targets.size() > 1) bad_input({}, "--check takes one --target; {} are given", options.targets.size());
+  check.target = options.targets.front();
+  check.no_warp = options.no_warp;
+  if (!options.corners.empty() || !options.identity.empty() || !cli.common.output.empty())
+    bad_input({}, "--check goes with images, --target and --report; not with --corners, --identity or -o");
+  check_rig_of(cli, check);
+}
+
 void run(const Cli& cli, const CalibrateArguments& options) {
+  if (!options.check.rig.empty()) return run_check(cli, options);
+  if (!options.check.images.empty())
+    bad_input({}, "found {}: images to calibrate from are named behind --images",
+              in_quotes(options.check.images.front()));
   const std::string& output = require_output(cli);
-  std::vector<Target> targets;
-  for (const std::string& text : options.targets) targets.push_back(parse_target(text));
+  const std::vector<Target> targets = parse_targets(options.targets);
   CalibrateOptions settings;
   settings.lens = options.model;
   settings.board_warp = !options.no_warp;
@@ -87,7 +132,7 @@ void run(const Cli& cli, const CalibrateArguments& options) {
     bad_input({}, "--moving-rig and --turntable exclude each other");
   Provenance made_from = provenance(cli);
   for (const std::string& text : options.targets)
-    if (std::filesystem::is_regular_file(text)) made_from.add_input(text);
+    if (is_target_file(text)) made_from.add_input(text);
   Observations observations;
   if (!options.corners.empty()) {
     if (!options.images.empty()) bad_input({}, "--images and --corners exclude each other");
@@ -98,7 +143,8 @@ void run(const Cli& cli, const CalibrateArguments& options) {
     made_from.add_input(options.corners);
   } else {
     if (options.images.empty()) bad_input({}, "nothing to calibrate from: give --images or --corners");
-    observations = find_corners(expand_patterns(options.images), targets);
+    observations =
+        find_corners(expand_patterns(options.images), targets, {options.debug_images, cli.common.overwrite});
     for (const BoardView& view : observations.views) made_from.add_input(view.image);
   }
   for (const auto& camera : observations.cameras)
@@ -109,8 +155,9 @@ void run(const Cli& cli, const CalibrateArguments& options) {
     settings.lens = selection->chosen;
     tell_selection(*selection);
   }
-  const Calibration result = calibrate(observations, targets, settings);
+  Calibration result = calibrate(observations, targets, settings);
   tell(result, observations);
+  identify_cameras(observations, options.identity, result.rig);
   write_file(output, rig_toml(result.rig, "bpms " + version() + "\n" + in_quotes(cli.command)),
              cli.common.overwrite);
   Json made = calibration_json(result, observations, targets, settings.lens);
@@ -130,14 +177,30 @@ void add_calibrate(Cli& cli) {
   verb->add_option("--corners", options->corners, "corners already found: rows of filename x y level");
   verb->add_option("--image-size", options->image_size, "of the images behind --corners, as in 640x480");
   verb->add_option("--target", options->targets,
-                   "chessboard:COLUMNSxROWS:SQUARE (inner corners) and other kinds, or board.toml; several "
-                   "may be given")
+                   fmt::format("{}, a board.toml or a control_frame.toml; several where images show several",
+                               fmt::join(target_forms(), ", ")))
       ->required();
+  verb->add_option("--debug-images", options->debug_images,
+                   "a folder for pictures of what was found in each image");
   verb->add_option(
       "--model", options->model,
       "lens: pinhole, brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational), fisheye, splined "
       "(or splined:COLUMNSxROWS), auto (by cross-validation)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
+  verb->add_option("--identity", options->identity,
+                   "CAMERA.KEY=VALUE ..., kept in the rig besides what the images say: left.serial=40123");
+  verb->add_option("--check", options->check.rig,
+                   "rig.toml: does it still hold, by these images of the board? Exit 5 when it does not");
+  verb->add_option("shot", options->check.images,
+                   "with --check: images of the board, shot_left.png shot_right.png");
+  verb->add_option("--corner-sigma", options->check.corner_sigma_px,
+                   "with --check: pixels by which corners err (default: the rig's residual_sigma_px)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--least-p", options->check.least_p,
+                   "with --check: what is less probable does not hold (default 0.001)")
+      ->check(CLI::Range(1e-12, 0.5));
+  verb->add_flag("--ignore-identity", options->check.ignore_identity,
+                 "with --check: images of another camera or lens are checked all the same");
   verb->add_flag("--moving-rig", options->moving_rig, "the rig is carried around a target that stands");
   verb->add_option(
       "--turntable", options->turntable_deg,

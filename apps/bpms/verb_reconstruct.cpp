@@ -6,6 +6,7 @@
 
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
+#include "calibrate/images/image_identity.h"
 #include "core/atomic_file.h"
 #include "core/base64.h"
 #include "core/error.h"
@@ -23,6 +24,7 @@ struct ReconstructArguments {
   std::string points, rig, view, up, up_from, origin, disparity_map;
   std::string covariance = "total";
   std::vector<std::string> photographs;
+  bool ignore_identity = false;
   double gate_p = ReconstructOptions{}.gate_p;
 };
 
@@ -66,6 +68,7 @@ Json photographs_json(const ReconstructArguments& options, const Rig& rig, const
                   "the photographs show one view, the points are of the views {} and {}: choose with --view",
                   in_quotes(vectors.points.front().view), in_quotes(p.view));
     }
+    for (const std::string& line : require_same_identity(camera, path, options.ignore_identity)) note(line);
     made.add_input(path);
     out.push_back({{"view", vectors.points.front().view},
                    {"camera", name},
@@ -228,6 +231,8 @@ void add_reconstruct(Cli& cli) {
   verb->add_option("--origin", options->origin,
                    "the labelled point that becomes the origin, such as organ=bud");
   verb->add_option("--photographs", options->photographs, "CAMERA=FILE ... to show in the report");
+  verb->add_flag("--ignore-identity", options->ignore_identity,
+                 "photographs of another camera or lens than the rig's are only noted");
   verb->add_option("--check-disparity", options->disparity_map,
                    "dense disparity map of a rectified pair (PNG)");
 }

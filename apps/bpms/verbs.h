@@ -6,6 +6,7 @@ struct Cli;
 void add_check(Cli& cli);
 void add_target(Cli& cli);
 void add_calibrate(Cli& cli);
+void add_rig(Cli& cli);
 void add_reconstruct(Cli& cli);
 void add_fit(Cli& cli);
 void add_build(Cli& cli);

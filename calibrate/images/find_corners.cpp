@@ -31,7 +31,7 @@ struct Image {
   std::string trouble;
 };
 
-Image name_image(const std::string& path) {
+Image name_image(const std::string& path, const ImageNaming& name_of) {
   Image out;
   out.path = path;
   if (path.find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path)) {
@@ -39,7 +39,7 @@ Image name_image(const std::string& path) {
     return out;
   }
   try {
-    out.name = parse_image_name(path);
+    out.name = name_of(path);
   } catch (const Error& error) {
     out.trouble = error.message();
   }
@@ -161,7 +161,7 @@ Observations find_corners(const std::vector<std::string>& paths, const std::vect
                           const FindOptions& options) {
   if (!options.debug_folder.empty()) std::filesystem::create_directories(options.debug_folder);
   std::vector<Image> images;
-  for (const std::string& path : paths) images.push_back(name_image(path));
+  for (const std::string& path : paths) images.push_back(name_image(path, options.name_of));
   Progress progress("finding corners", images.size());
   parallel_for(images.size(), [&](std::size_t i) {
     throw_if_interrupted();

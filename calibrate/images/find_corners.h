@@ -1,5 +1,6 @@
 // The corners of a target in image files.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,13 @@ namespace bpms {
 // A name or pattern that matches nothing stays, and is skipped later.
 std::vector<std::string> expand_patterns(const std::vector<std::string>& arguments);
 
+// Which camera and frame an image is of.
+using ImageNaming = std::function<ImageName(const std::string& path)>;
+
 struct FindOptions {
   std::string debug_folder;  // where a picture of what was found in each image goes; empty: nowhere
   bool overwrite = false;
+  ImageNaming name_of = parse_image_name;
 };
 
 // Finds the targets in all images, in parallel. A view of each target that an image shows. Skipped with a
