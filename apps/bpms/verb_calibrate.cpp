@@ -5,6 +5,7 @@
 #include "apps/bpms/verbs.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/images/find_corners.h"
+#include "calibrate/targets/target_kind.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -14,8 +15,8 @@ namespace bpms {
 namespace {
 
 struct CalibrateArguments {
-  std::vector<std::string> images;
-  std::string corners, image_size, target, model = "brown4";
+  std::vector<std::string> images, targets;
+  std::string corners, image_size, debug_images, model = "brown4";
   bool no_warp = false, moving_rig = false, free_points = false;
 };
 
@@ -32,6 +33,7 @@ std::pair<int, int> parse_size(const std::string& text) {
 
 void tell(const Calibration& c, const Observations& observations) {
   for (const auto& [image, reason] : observations.skipped) note(fmt::format("skipped {}: {}", image, reason));
+  for (const auto& [image, remark] : observations.remarks) note(fmt::format("{}: {}", image, remark));
   for (const auto& view : c.views) {
     if (view.outlier) note(fmt::format("outlier view {}: {}", view.image, view.reason));
   }
@@ -50,34 +52,36 @@ void tell(const Calibration& c, const Observations& observations) {
 
 void run(const Cli& cli, const CalibrateArguments& options) {
   const std::string& output = require_output(cli);
-  const Target target = parse_target(options.target);
+  const std::vector<Target> targets = parse_targets(options.targets);
   CalibrateOptions settings;
   settings.lens = options.model;
   settings.board_warp = !options.no_warp;
   settings.rig_moves = options.moving_rig;
   settings.free_points = options.free_points;
   Provenance made_from = provenance(cli);
-  if (options.target.ends_with(".toml")) made_from.add_input(options.target);
+  for (const std::string& target : options.targets)
+    if (is_target_file(target)) made_from.add_input(target);
   Observations observations;
   if (!options.corners.empty()) {
     if (!options.images.empty()) bad_input({}, "--images and --corners exclude each other");
     if (options.image_size.empty()) bad_input({}, "--corners needs --image-size WIDTHxHEIGHT");
     const auto [width, height] = parse_size(options.image_size);
-    observations = read_corners(options.corners, width, height, target.size());
+    if (targets.size() > 1) bad_input({}, "--corners are those of one target, not of {}", targets.size());
+    observations = read_corners(options.corners, width, height, targets.front().size());
     made_from.add_input(options.corners);
   } else {
     if (options.images.empty()) bad_input({}, "nothing to calibrate from: give --images or --corners");
-    observations = find_corners(expand_patterns(options.images), target);
+    observations =
+        find_corners(expand_patterns(options.images), targets, {options.debug_images, cli.common.overwrite});
     for (const BoardView& view : observations.views) made_from.add_input(view.image);
   }
   for (const auto& camera : observations.cameras)
     note(fmt::format("camera {}: {}x{} pixels", camera.name, camera.width_px, camera.height_px));
-  const Calibration result = calibrate(observations, target, settings);
+  const Calibration result = calibrate(observations, targets, settings);
   tell(result, observations);
   write_file(output, rig_toml(result.rig, "bpms " + version() + "\n" + in_quotes(cli.command)),
              cli.common.overwrite);
-  deliver_report(cli, "calibrate", calibration_json(result, observations, {target}, options.model),
-                 made_from);
+  deliver_report(cli, "calibrate", calibration_json(result, observations, targets, options.model), made_from);
 }
 
 }  // namespace
@@ -91,9 +95,12 @@ void add_calibrate(Cli& cli) {
   verb->add_option("--images", options->images, "images or patterns; left01.jpg is frame 01 of camera left");
   verb->add_option("--corners", options->corners, "corners already found: rows of filename x y level");
   verb->add_option("--image-size", options->image_size, "of the images behind --corners, as in 640x480");
-  verb->add_option("--target", options->target,
-                   "chessboard:COLUMNSxROWS:SQUARE (inner corners) or board.toml")
+  verb->add_option("--target", options->targets,
+                   fmt::format("{}, a board.toml or a control_frame.toml; several where images show several",
+                               fmt::join(target_forms(), ", ")))
       ->required();
+  verb->add_option("--debug-images", options->debug_images,
+                   "a folder for pictures of what was found in each image");
   verb->add_option("--model", options->model,
                    "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");

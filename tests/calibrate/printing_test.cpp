@@ -1,0 +1,111 @@
+// What is printed is what is calibrated with: sheets rasterised by other programs, found by the detectors and
+// compared with the coordinates beside them.
+#include "calibrate/targets/printing/printed_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+
+#include "calibrate/targets/target_kind.h"
+#include "tests/data.h"
+
+namespace bpms {
+namespace {
+
+bool have_program(const std::string& name) {
+  return std::system(("command -v " + name + " > /dev/null").c_str()) == 0;
+}
+
+struct Sheet {
+  const char *name, *spec, *paper;
+  const char* program;  // rasterises it
+};
+void PrintTo(const Sheet& s, std::ostream* out) {
+  *out << s.spec << " by " << s.program;
+}
+
+class Printed : public ::testing::TestWithParam<Sheet> {};
+TEST_P(Printed, PointsLieWhereTheBoardsFileHasThem) {
+  const bool pdf = std::string(GetParam().program) == "pdftoppm";
+  if (!have_program(GetParam().program)) {
+    if (test::data_required()) FAIL() << "required program is absent: " << GetParam().program;
+    GTEST_SKIP() << "needs " << GetParam().program << " (scripts/setup --test)";
+  }
+  const test::TemporaryFolder folder;
+  const Target target = parse_target(GetParam().spec);
+  const PrintedPage page = lay_out(draw_target(target), GetParam().paper);
+  constexpr int dpi = 150;
+  const std::string sheet = folder.write(pdf ? "b.pdf" : "b.svg", pdf ? pdf_of(page) : svg_of(page));
+  const std::string command =
+      pdf ? fmt::format("pdftoppm -r {} -png -singlefile {} {}", dpi, sheet, folder / "b")
+          : fmt::format("rsvg-convert -d {0} -p {0} -f png -o {1} {2}", dpi, folder / "b.png", sheet);
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const cv::Mat picture = cv::imread(folder / "b.png", cv::IMREAD_GRAYSCALE);
+  ASSERT_FALSE(picture.empty());
+  EXPECT_NEAR(picture.cols, page.width * dpi / 25.4, 1);
+  EXPECT_NEAR(picture.rows, page.height * dpi / 25.4, 1);
+
+  Detection found = detect_target(picture, target);
+  ASSERT_EQ(found.corners.size(), static_cast<std::size_t>(target.size())) << found.trouble;
+  const std::vector<Eigen::Vector3d> points =
+      parse_board("b.toml", board_toml(target)).points_m();  // as they are written
+  double worst = 0;
+  for (const ImageCorner& corner : found.corners) {
+    const Eigen::Vector2d mm = page.origin + 1000 * points[static_cast<std::size_t>(corner.point)].head<2>();
+    const Eigen::Vector2d pixel = mm * dpi / 25.4 - Eigen::Vector2d(0.5, 0.5);
+    worst = std::max(worst, (corner.pixel - pixel).norm());
+  }
+  fmt::print("{} by {}: worst {:.4f} px\n", GetParam().spec, GetParam().program, worst);
+  EXPECT_LT(worst, 0.05);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, Printed,
+    ::testing::Values(Sheet{"ChessboardPdf", "chessboard:9x6:20mm", "", "pdftoppm"},
+                      Sheet{"ChessboardSvg", "chessboard:9x6:20mm", "", "rsvg-convert"},
+                      Sheet{"CharucoPdf", "charuco:7x5:30mm:22mm:DICT_4X4_50", "", "pdftoppm"},
+                      Sheet{"CharucoSvg", "charuco:7x5:30mm:22mm:DICT_4X4_50", "A3", "rsvg-convert"},
+                      Sheet{"ApriltagPdf", "apriltag:4x3:40mm:10mm", "", "pdftoppm"},
+                      Sheet{"ApriltagSvg", "apriltag:4x3:40mm:10mm:50", "", "rsvg-convert"},
+                      Sheet{"CirclesPdf", "circles:7x6:25mm:15mm", "", "pdftoppm"},
+                      Sheet{"AsymmetricSvg", "asymmetric_circles:4x11:16mm:12mm", "", "rsvg-convert"}),
+    [](const ::testing::TestParamInfo<Sheet>& one) { return std::string(one.param.name); });
+
+TEST(PrintedPage, KeepsBarsAndTextOutOfTheWhiteAroundTheBoard) {
+  for (const char* spec :
+       {"chessboard:9x6:25mm", "charuco:5x4:10mm:7mm:DICT_4X4_50", "apriltag:1x1:15mm:3mm"}) {
+    const Drawing drawing = draw_target(parse_target(spec));
+    const PrintedPage page = lay_out(drawing, "");
+    const Eigen::Vector2d low = page.origin + 1000 * drawing.quiet_low,
+                          high = page.origin + 1000 * drawing.quiet_high;
+    const std::size_t of_board = drawing.black.size();
+    int long_bars = 0;
+    for (std::size_t i = of_board; i < page.black.size(); ++i) {
+      const auto& [x, y, w, h] = page.black[i];
+      EXPECT_TRUE(x + w <= low.x() || x >= high.x() || y + h <= low.y() || y >= high.y())
+          << spec << " bar " << i;
+      EXPECT_TRUE(x >= 5 && y >= 5 && x + w <= page.width - 5 && y + h <= page.height - 5)
+          << spec << " bar " << i;
+      long_bars += w == check_bar_mm || h == check_bar_mm;
+    }
+    EXPECT_EQ(long_bars, 2);
+    for (const auto& text : page.texts) EXPECT_GT(text.y - text.size, high.y());
+    for (std::size_t i = 0; i < of_board; ++i) {  // a board ends before its white does
+      EXPECT_GT(page.black[i].x, low.x());
+      EXPECT_LT(page.black[i].y + page.black[i].height, high.y());
+    }
+  }
+}
+
+TEST(PrintedPage, SaysWhenThePaperIsTooSmallOrUnknown) {
+  const Drawing drawing = draw_target(parse_target("chessboard:9x6:50mm"));
+  BPMS_EXPECT_ERROR(lay_out(drawing, "A4"), ErrorKind::bad_input, "the board with its bars needs");
+  BPMS_EXPECT_ERROR(lay_out(drawing, "A33"), ErrorKind::bad_input, "no paper 'A33'");
+  EXPECT_EQ(lay_out(drawing, "A2 landscape").paper, "A2 landscape");
+  EXPECT_EQ(lay_out(drawing, "").paper, "A2 landscape");
+  EXPECT_GT(lay_out(draw_target(parse_target("chessboard:9x6:300mm")), "").width, 3000);
+}
+
+}  // namespace
+}  // namespace bpms
