@@ -10,13 +10,20 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "core/units.h"
 
 namespace bpms {
 namespace {
 
 struct CalibrateArguments {
+<<<<<<< HEAD
   std::vector<std::string> images, targets;
   std::string corners, image_size, debug_images, model = "brown4";
+=======
+  std::vector<std::string> images;
+  std::string corners, image_size, target, model = "brown4";
+  double turntable_deg = 0;
+>>>>>>> main
   bool no_warp = false, moving_rig = false, free_points = false;
 };
 
@@ -42,6 +49,13 @@ void tell(const Calibration& c, const Observations& observations) {
   note(fmt::format("{} of {} corners in {} views ({} images skipped), residual {:.3f} px, solved in {:.2f} s",
                    c.corners_used, c.corners_total, c.views.size(), observations.skipped.size(),
                    c.residual_sigma_px, c.solve_seconds));
+  if (c.turntable)
+    note(fmt::format(
+        "turntable: axis ({:.5f}, {:.5f}, {:.5f}) +- {:.2g} rad through ({:.4f}, {:.4f}, {:.4f}) m +- {:.2g} "
+        "m",
+        c.turntable->direction.x(), c.turntable->direction.y(), c.turntable->direction.z(),
+        c.turntable->direction_sigma_clustered_rad, c.turntable->point_m.x(), c.turntable->point_m.y(),
+        c.turntable->point_m.z(), c.turntable->point_sigma_clustered_m));
   for (const auto& pair : c.pairs)
     note(fmt::format("baseline {} - {}: {:.3f} mm +- {:.3f} mm ({:.3f} as if corners erred independently)",
                      c.rig.cameras[static_cast<std::size_t>(pair.a)].name,
@@ -58,6 +72,9 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   settings.board_warp = !options.no_warp;
   settings.rig_moves = options.moving_rig;
   settings.free_points = options.free_points;
+  settings.table_step_rad = radians(options.turntable_deg);
+  if (options.moving_rig && options.turntable_deg != 0)
+    bad_input({}, "--moving-rig and --turntable exclude each other");
   Provenance made_from = provenance(cli);
   for (const std::string& target : options.targets)
     if (is_target_file(target)) made_from.add_input(target);
@@ -105,6 +122,9 @@ void add_calibrate(Cli& cli) {
                    "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
   verb->add_flag("--moving-rig", options->moving_rig, "the rig is carried around a target that stands");
+  verb->add_option(
+      "--turntable", options->turntable_deg,
+      "the target stands on a table that turns by so many degrees from one frame number to the next");
   verb->add_flag("--free-points", options->free_points,
                  "estimate the points of what stands, with their place together as the datum");
 }

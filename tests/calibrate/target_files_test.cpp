@@ -136,7 +136,7 @@ TEST(ControlFrame, SaysWhatIsWrongAndWhere) {
       {with("\"9.0\"", "\"9.4\""), "is no point of the frame"},
       {with("1.0005", "1000.5"), "differs from the"},
       {with("[0.001, 0.002, 0.003]", "[0.001, 0, 0.003]"), "standard deviations above 0"},
-      {with("size_m = 0.04", "size = 0.04"), "missing key 'size_m'"},
+      {with("size_m = 0.04", "size = 0.04"), "did you mean 'size_m'?"},
       {"kind = \"control_frame\"\n", "neither"}};
   for (const auto& [text, part] : cases)
     BPMS_EXPECT_ERROR(parse_board("f.toml", text), ErrorKind::bad_input, part);

@@ -55,9 +55,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Photograph{"Charuco", "opencv-doc/charuco/choriginal.jpg",
                                  "charuco:5x7:40mm:20mm:DICT_6X6_250", 20, 1},
                       Photograph{"KalibrCheckerboard", "calib-misc/kalibr/testImageCheckerboard.jpg",
-                                 "chessboard:7x6:60mm", 42, 3},
+                                 "chessboard:8x9:60mm", 72, 5},
                       Photograph{"KalibrCircles", "calib-misc/kalibr/testImageCircleGrid.jpg",
-                                 "asymmetric_circles:4x11:20mm:15mm", 44, 3}),
+                                 "circles:7x5:20mm:10mm", 35, 3}),
     [](const ::testing::TestParamInfo<Photograph>& one) { return std::string(one.param.name); });
 
 }  // namespace
