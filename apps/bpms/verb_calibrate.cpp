@@ -16,14 +16,9 @@ namespace bpms {
 namespace {
 
 struct CalibrateArguments {
-<<<<<<< HEAD
   std::vector<std::string> images, targets;
   std::string corners, image_size, debug_images, model = "brown4";
-=======
-  std::vector<std::string> images;
-  std::string corners, image_size, target, model = "brown4";
   double turntable_deg = 0;
->>>>>>> main
   bool no_warp = false, moving_rig = false, free_points = false;
 };
 
