@@ -14,13 +14,18 @@ interface ErrorBars {
 }
 
 export interface Trace {
-  type: "scatter" | "bar" | "heatmap";
+  type: "scatter" | "bar" | "heatmap" | "contour";
   x?: readonly Value[];
   y?: readonly Value[];
   z?: readonly (readonly (number | null)[])[]; // of a heatmap
-  colorscale?: string;
+  colorscale?: string | readonly (readonly [number, string])[];
   colorbar?: Record<string, unknown>;
   zsmooth?: "best" | "fast" | false;
+  zmin?: number;
+  zmax?: number;
+  showscale?: boolean;
+  contours?: Record<string, unknown>;
+  customdata?: readonly unknown[];
   name?: string;
   mode?: "lines" | "markers" | "lines+markers" | "text";
   text?: string | readonly string[];
