@@ -39,8 +39,10 @@ TEST(PairUncertainty, IsTheClosedFormOfARectifiedPair) {
   }
 }
 
-// A longer baseline moves the points away in proportion and, half of it, aside; a turn of the right camera
-// by r about y moves its pixel by f r, the depth by z^2 r / B.
+// A longer baseline moves the points away in proportion and, half of it, aside. A turn of R by r about y, the
+// shift t kept, takes the point from (B/2, 0, z) to (B/2 + z r, 0, z - r B/2), before t = (-B, 0, 0): its
+// pixel goes by f r (1 - (B/2z)^2), and a pixel error e of one camera moves the point by z^2 e / (f B) in
+// depth.
 TEST(PairUncertainty, TakesInTheRigsErrors) {
   Rig rig = rectified();
   constexpr double sigma_t_m = 0.0004, sigma_r = 0.0002, z = 1.5;
@@ -49,8 +51,7 @@ TEST(PairUncertainty, TakesInTheRigsErrors) {
   const auto found = pair_uncertainty(rig, 0, 1, sigma_px, {z});
   ASSERT_EQ(found.size(), 1u);
   const Eigen::Vector3d observation = found[0].observation_sigma_m;
-  const double tangent = baseline_m / 2 / z;     // of the ray to the point, from the right camera's axis
-  const double by_turn = 1 + tangent * tangent;  // pixels per f r there
+  const double by_turn = 1 - std::pow(baseline_m / 2 / z, 2);
   const double depth = z * z / baseline_m * std::hypot(by_turn * sigma_r, sigma_t_m / z);
   const double aside = z / 2 * std::hypot(by_turn * sigma_r, sigma_t_m / z);
   expect_close(found[0].sigma_m,

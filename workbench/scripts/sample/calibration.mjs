@@ -1,4 +1,4 @@
-// The calibration of the sample: a stereo pair that sees a board in nine frames.
+// The calibration of the sample: a stereo pair that sees a board in eight frames.
 import { random, range, round } from "./plant.mjs";
 
 const size = [640, 480];
@@ -50,7 +50,7 @@ function covariance() {
 
 export function calibrate(provenance) {
   const { uniform, normal } = random(7);
-  const frames = range(1, 9, 9).map((i) => `0${i}`);
+  const frames = range(1, 8, 8).map((i) => `0${i}`);
   const poses = frames.map((_, i) =>
     pose(0.7 * Math.sin(2.1 * i), 0.6 * Math.cos(1.3 * i), 0.15 * normal(), [0.04 + 0.06 * Math.cos(2.4 * i), 0.05 * Math.sin(2.4 * i), 0.42 + 0.1 * uniform()]).map((row) => row.map((v) => round(v, 4))),
   );

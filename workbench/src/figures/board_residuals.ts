@@ -5,7 +5,7 @@ import type { Choice, Section } from "../book";
 import type { Calibrate } from "../data";
 import { length, niceBelow, significant } from "../format";
 import { rejected } from "../palette";
-import { axisTitle, type PlotSpec } from "../plot";
+import { axisTitle, colourBar, type PlotSpec } from "../plot";
 
 type View = Calibrate["views"][number];
 type Target = Calibrate["targets"][number];
@@ -135,7 +135,7 @@ export function boardSpec(points: readonly BoardPoint[], scale: number): PlotSpe
       },
       {
         type: "scatter", mode: "markers", x: points.map((p) => mm(p.x)), y: points.map((p) => mm(p.y)), showlegend: false,
-        marker: { color: points.map((p) => p.rms_px), colorscale: "Viridis", size: 8, colorbar: { title: { text: "rms residual (px)", side: "right" }, thickness: 14, outlinewidth: 0 } },
+        marker: { color: points.map((p) => p.rms_px), colorscale: "Viridis", size: 8, colorbar: colourBar("rms residual (px)") },
         text: points.map((p) => `(${significant(mm(p.x), 4)}, ${significant(mm(p.y), 4)}) mm, ${p.views} views<br>off by ${significant(mm(p.dx), 2)}, ${significant(mm(p.dy), 2)} mm ± ${significant(mm(p.se), 2)}<br>rms ${significant(p.rms_px, 3)} px`),
         hovertemplate: "%{text}<extra></extra>",
       },

@@ -3,6 +3,7 @@
 import type { Section } from "../book";
 import type { Calibrate } from "../data";
 import { fixed } from "../format";
+import { colourBar } from "../plot";
 
 type Matrix = (number | null)[][];
 
@@ -40,7 +41,7 @@ export function correlationMatrix(r: Calibrate, s: Section): void {
       data: [
         {
           type: "heatmap", x: labels, y: labels, z: matrix, zmin: -1, zmax: 1, colorscale: [[0, "#3b6fb6"], [0.5, "#ffffff"], [1, "#c2542f"]],
-          hovertemplate: "%{x} with %{y}: %{z:.3f}<extra></extra>", colorbar: { title: { text: "correlation", side: "right" }, thickness: 14, outlinewidth: 0 },
+          hovertemplate: "%{x} with %{y}: %{z:.3f}<extra></extra>", colorbar: colourBar("", { tickvals: [-1, -0.5, 0, 0.5, 1] }),
         },
       ],
       layout: { xaxis: { ...ticks, tickangle: -60 }, yaxis: { ...ticks, autorange: "reversed" }, margin: { l: 90, r: 20, t: 16, b: 90 } },

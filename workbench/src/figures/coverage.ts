@@ -4,7 +4,7 @@ import type { Section } from "../book";
 import type { Calibrate } from "../data";
 import { percent } from "../format";
 import { accent } from "../palette";
-import type { Trace } from "../plot";
+import { colourBar, type Trace } from "../plot";
 import { cameraNames, imagePanels, imageSize } from "./image_panels";
 
 export type Pixel = [number, number];
@@ -74,7 +74,7 @@ export function coverage(r: Calibrate, s: Section): void {
       {
         type: "heatmap", x: centres(16, c.size[0]), y: centres(12, c.size[1]), z: c.counts, zmin: 0, zmax, showscale: i === 0,
         colorscale: [[0, "#f1f7f2"], [1, "#5da97a"]], hovertemplate: "%{z} corners<extra></extra>",
-        colorbar: { title: { text: "corners in a cell", side: "right" }, thickness: 14, outlinewidth: 0, x: 1.01 }, ...at,
+        colorbar: colourBar("corners in a cell", { x: 1.01 }), ...at,
       },
       { type: "scatter", mode: "markers", x: c.corners.map((p) => p[0]), y: c.corners.map((p) => p[1]), marker: { color: "#24292f", size: 2.4, opacity: 0.6 }, hoverinfo: "skip", showlegend: false, ...at },
       hullLine(c.hull, accent, at),

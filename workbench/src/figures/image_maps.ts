@@ -3,7 +3,7 @@
 import type { Section } from "../book";
 import type { Calibrate, ImageMap } from "../data";
 import { length, significant } from "../format";
-import type { Trace } from "../plot";
+import { colourBar, oneTwoFive, type Trace } from "../plot";
 import { convexHull, cornersOf, hullLine } from "./coverage";
 import { imagePanels, imageSize } from "./image_panels";
 
@@ -30,13 +30,7 @@ export function mapScale(maps: readonly ImageMap[]): Scale | null {
 
 // 1, 2, 5 times powers of ten within the scale.
 export function levels({ low, high }: Scale): number[] {
-  const out: number[] = [];
-  for (let e = Math.floor(Math.log10(Math.max(low, high * 1e-4))); e <= Math.log10(high); ++e)
-    for (const lead of [1, 2, 5]) {
-      const value = Number(`${lead}e${e}`);
-      if (value >= Math.max(low, high * 1e-4) * 0.999 && value <= high) out.push(value);
-    }
-  return out;
+  return oneTwoFive(Math.max(low, high * 1e-4), high);
 }
 
 export function grid(map: ImageMap): (number | null)[][] {
@@ -47,15 +41,12 @@ export function grid(map: ImageMap): (number | null)[][] {
 function colours(map: ImageMap, scale: Scale, first: boolean, at: Partial<Trace>): Trace {
   const place = (v: number): number => (scale.logarithmic ? Math.log10(Math.max(v, scale.low)) : v);
   const z = grid(map);
-  const ticks = levels(scale).filter((v) => scale.logarithmic || v >= scale.high / 8);
-  const linear = scale.logarithmic ? {} : { nticks: 7 };
   return {
     type: "heatmap", x: map.x_px, y: map.y_px, z: z.map((row) => row.map((v) => (v === null ? null : place(v)))), zmin: place(scale.low), zmax: place(scale.high),
     colorscale: "Viridis", showscale: first, customdata: z, hovertemplate: "(%{x}, %{y}): %{customdata:.3g} px<extra></extra>",
-    colorbar: {
-      title: { text: scale.logarithmic ? "px (logarithmic)" : "px", side: "right" }, thickness: 14, outlinewidth: 0, x: 1.01, ...linear,
-      ...(scale.logarithmic ? { tickvals: ticks.map(place), ticktext: ticks.map((v) => significant(v, 1)) } : {}),
-    },
+    colorbar: scale.logarithmic
+      ? colourBar("px (logarithmic)", { x: 1.01, tickvals: levels(scale).map(place), ticktext: levels(scale).map((v) => significant(v, 1)) })
+      : colourBar("px", { x: 1.01, nticks: 7 }),
     ...at,
   }; // prettier-ignore
 }
@@ -101,8 +92,8 @@ export function halfSetDifference(r: Calibrate, s: Section): void {
   const maps = (r.half_sets?.difference ?? []).map((map, i): NamedMap => ({ title: r.cameras[i]?.name ?? `camera ${i + 1}`, camera: r.cameras[i]?.name ?? null, map }));
   imageMaps(
     r, s, "halves", maps,
-    `How far the calibrations from the odd and from the even frames put the same points apart, at ${ranges(maps)}. An honest uncertainty is of the size of half of this: ` +
-      "each half has half the frames, and two of them differ by √2 of the σ of one.",
+    `How far the calibrations from the odd and from the even frames put the same points apart, at ${ranges(maps)}, up to a small motion of the camera. ` +
+      "Each half has √2 times the σ of all frames, and two halves differ by √2 times that: where the uncertainty is honest this is about twice the projection uncertainty.",
   ); // prettier-ignore
 }
 

@@ -2,8 +2,9 @@
 
 import type { Section } from "../book";
 import type { Calibrate } from "../data";
+import { significant } from "../format";
 import { colour } from "../palette";
-import { axisTitle, type Trace } from "../plot";
+import { axisTitle, oneTwoFive, type Trace } from "../plot";
 
 type Row = Calibrate["triangulation"][number];
 
@@ -39,6 +40,8 @@ export function triangulationTraces(all: readonly Row[]): Trace[] {
 export function triangulationCurves(r: Calibrate, s: Section): void {
   const data = triangulationTraces(r.triangulation);
   if (data.length === 0) return;
+  const values = data.flatMap((t) => (t.y ?? []).filter((y): y is number => typeof y === "number" && y > 0));
+  const ticks = oneTwoFive(Math.min(...values) / 2, Math.max(...values) * 2);
   s.plot(
     "triangulation",
     {
@@ -47,7 +50,7 @@ export function triangulationCurves(r: Calibrate, s: Section): void {
       data,
       layout: {
         xaxis: { title: axisTitle("distance from the middle of the baseline (m)") },
-        yaxis: { title: axisTitle("σ of a point (mm)"), type: "log", dtick: "D2", exponentformat: "none" },
+        yaxis: { title: axisTitle("σ of a point (mm)"), type: "log", tickvals: ticks, ticktext: ticks.map((v) => significant(v, 1)) },
         showlegend: true,
       },
     },

@@ -17,7 +17,7 @@ interface Parameter {
   unit: string;
 }
 
-// The rotation vector of a matrix, for turns well below half a turn from the identity or beyond.
+// The rotation vector of a matrix, for anything but half a turn.
 export function rotationVector(r: readonly (readonly number[])[]): [number, number, number] {
   const at = (i: number, j: number): number => r[i]?.[j] ?? 0;
   const w = [at(2, 1) - at(1, 2), at(0, 2) - at(2, 0), at(1, 0) - at(0, 1)] as const;
