@@ -52,7 +52,7 @@ export function calibrate(provenance) {
   const { uniform, normal } = random(7);
   const frames = range(1, 8, 8).map((i) => `0${i}`);
   const poses = frames.map((_, i) =>
-    pose(0.7 * Math.sin(2.1 * i), 0.6 * Math.cos(1.3 * i), 0.15 * normal(), [0.04 + 0.06 * Math.cos(2.4 * i), 0.05 * Math.sin(2.4 * i), 0.42 + 0.1 * uniform()]).map((row) => row.map((v) => round(v, 4))),
+    pose(0.7 * Math.sin(2.1 * i), 0.6 * Math.cos(1.3 * i), 0.15 * normal(), [0.04 + 0.045 * Math.cos(2.4 * i), 0.04 * Math.sin(2.4 * i), 0.46 + 0.08 * uniform()]).map((row) => row.map((v) => round(v, 4))),
   );
   const points = range(0, 53, 54).filter((k) => k % 2 === 0);
   const views = ["left", "right"].flatMap((camera) =>
