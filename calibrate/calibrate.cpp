@@ -1,12 +1,13 @@
 #include "calibrate/calibrate.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "calibrate/adjustment/bundle_adjustment.h"
-#include "calibrate/adjustment/initial_estimate.h"
 #include "calibrate/adjustment/outliers.h"
+#include "calibrate/adjustment/turntable.h"
 #include "calibrate/adjustment/uncertainty.h"
 #include "calibrate/describe.h"
 #include "calibrate/network_problem.h"
@@ -58,6 +59,7 @@ std::vector<bool> odd_frames(const std::vector<std::string>& frames) {
 
 struct Half {
   std::vector<Camera> cameras;
+  std::optional<TurntableAxis> axis;
   std::vector<double> baseline_sigma_m;  // of the first pair, if there is one
 };
 Half half_set(const BundleProblem& problem, const BundleState& solution, const std::vector<bool>& keep) {
@@ -69,6 +71,7 @@ Half half_set(const BundleProblem& problem, const BundleState& solution, const s
   std::vector<CameraPair> pairs;
   if (state.cameras.size() > 1) pairs.push_back({0, 1});
   return {state.cameras,
+          problem.turntable() ? std::optional(turntable_axis(state.rig_from_world[0])) : std::nullopt,
           clustered_by_frame(half, state, equations, cofactors(equations), pairs).baseline_sigma_m};
 }
 
@@ -89,6 +92,10 @@ void add_half_sets(const BundleProblem& problem, const BundleState& state,
     for (std::size_t c = 0; c < state.cameras.size(); ++c)
       result.difference.push_back(
           projection_difference(odd.cameras[c], even.cameras[c], {.range_m = ranges_m[c]}));
+    if (odd.axis) {
+      out.turntable->halves_angle_rad = odd.axis->direction.cross(even.axis->direction).norm();
+      out.turntable->halves_distance_m = (odd.axis->point_m - even.axis->point_m).norm();
+    }
     out.half_sets = std::move(result);
   } catch (const Error& error) {  // too few frames for halves: the report has none
     if (error.kind() != ErrorKind::numeric) throw;
@@ -120,6 +127,32 @@ void require_determined(const std::vector<Camera>& cameras, const NormalEquation
          unknown);
 }
 
+double largest_sigma(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(
+      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[2]));
+}
+
+Calibration::Turntable describe_turntable(const BundleState& state, const NormalEquations& equations,
+                                          const Eigen::MatrixXd& inverse) {
+  const Pose& table = state.rig_from_world[0];
+  const TurntableAxis axis = turntable_axis(table);
+  Calibration::Turntable out;
+  out.direction = axis.direction;
+  out.point_m = axis.point_m;
+  const auto at =
+      std::find(equations.names.begin(), equations.names.end(), "the pose (rx) of the turntable") -
+      equations.names.begin();
+  const Eigen::Matrix<double, 6, 6> d = axis_derivatives(table);
+  const auto sigmas = [&](const Eigen::MatrixXd& covariance, double& turn, double& shift) {
+    const Eigen::Matrix<double, 6, 6> block = d * covariance.block<6, 6>(at, at) * d.transpose();
+    turn = largest_sigma(block.topLeftCorner<3, 3>());
+    shift = largest_sigma(block.bottomRightCorner<3, 3>());
+  };
+  sigmas(std::pow(equations.sigma_px(), 2) * inverse, out.direction_sigma_rad, out.point_sigma_m);
+  sigmas(sandwich(equations, inverse), out.direction_sigma_clustered_rad, out.point_sigma_clustered_m);
+  return out;
+}
+
 std::vector<CameraPair> all_pairs(std::size_t cameras) {
   std::vector<CameraPair> out;
   for (int a = 0; a < static_cast<int>(cameras); ++a) {
@@ -145,10 +178,10 @@ std::optional<Eigen::Vector2d> pixel_without_ray(const Camera& camera) {
 Calibration calibrate(const Observations& observations, const std::vector<Target>& targets,
                       const CalibrateOptions& options) {
   const Clock::time_point start = Clock::now();
-  require_views(observations);
+  require_views(observations, options.rig_moves || options.table_step_rad != 0);
   const std::vector<std::string> frames = frame_names(observations);
   BundleProblem problem = network_problem(observations, targets, frames, options);
-  BundleState state = initial_estimate(problem, observations.cameras, lens_choice(options.lens));
+  BundleState state = first_state(problem, observations.cameras, lens_choice(options.lens));
   const OutlierSearch search =
       fit_without_outliers(problem, static_cast<int>(observations.views.size()), state);
   const NormalEquations equations = normal_equations(problem, state);
@@ -175,11 +208,13 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
   out.poses = {frames, state.rig_from_world, state.world_from_target};
   describe_views(observations, problem, state, search, out);
   out.sigma_iid = sigma_iid;
+  if (problem.turntable()) out.turntable = describe_turntable(state, equations, inverse);
   const std::vector<double> ranges_m = usual_ranges(problem, state);
   const std::vector<CameraPair> pairs = all_pairs(state.cameras.size());
   for (const CameraPair& pair : pairs) {
     const Pose pose = relative_pose(state.cameras, pair.a, pair.b);
-    const Eigen::VectorXd gradient = baseline_gradient(state.cameras, pair.a, pair.b, inverse.rows());
+    const Eigen::VectorXd gradient =
+        baseline_gradient(problem, state.cameras, pair.a, pair.b, inverse.rows());
     out.pairs.push_back({pair.a, pair.b, pose.t_m.norm(),
                          equations.sigma_px() * std::sqrt(gradient.dot(inverse * gradient)), std::nullopt,
                          vector_from_rotation(pose.r), pose.t_m});

@@ -23,6 +23,9 @@ struct CalibrateOptions {
   // Points of what stands: as surveyed (with their covariance where they have one), or estimated with the
   // place that they have together as the datum: a free network.
   bool free_points = false;
+  // Not 0: the targets stand on a table that turns by so much from one frame number to the next, before
+  // cameras that stand. Positive is right-handed about the axis that comes out.
+  double table_step_rad = 0;
   bool uncertainty = true;  // clustered sigmas and half sets: a solve for every frame left out
 };
 
@@ -96,6 +99,15 @@ struct Calibration {
   std::optional<HalfSets> half_sets;
   // Of each camera at the usual distance of its corners, from the covariance in the rig.
   std::vector<ProjectionMap> projection;
+  struct Turntable {  // its axis in the rig's frame, direction and nearest point to the origin
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero(), point_m = Eigen::Vector3d::Zero();
+    // The larger standard deviations, iid and by frame: of the direction, of the point across the axis.
+    double direction_sigma_rad = 0, point_sigma_m = 0, direction_sigma_clustered_rad = 0,
+           point_sigma_clustered_m = 0;
+    // Between frames with odd and even numbers; absent where halves have too few frames.
+    std::optional<double> halves_angle_rad, halves_distance_m;
+  };
+  std::optional<Turntable> turntable;
   double solve_seconds = 0, uncertainty_seconds = 0;
 };
 

@@ -10,6 +10,8 @@
 namespace bpms {
 namespace {
 
+constexpr int enough_views = 3;
+
 // "; skipped left3.png: no whole chessboard found", the first few.
 std::string skipped_words(const Observations& observations) {
   constexpr std::size_t most = 3;
@@ -67,8 +69,8 @@ std::vector<std::string> frame_names(const Observations& observations) {
   return out;
 }
 
-void require_views(const Observations& observations) {
-  constexpr int fewest = 3;
+void require_views(const Observations& observations, bool one_will_do) {
+  const int fewest = one_will_do ? 1 : enough_views;
   if (observations.views.empty()) {
     const auto& skipped = observations.skipped;
     if (skipped.empty()) bad_input({}, "no usable view of the target");
@@ -93,14 +95,27 @@ BundleProblem network_problem(const Observations& observations, const std::vecto
     out.targets.push_back(network_target(target, options));
     require_bars(out.targets.back());
   }
-  out.rig_moves = options.rig_moves;
-  if (options.rig_moves) {
+  out.rig_moves = options.rig_moves || options.table_step_rad != 0;
+  if (options.table_step_rad != 0) {
+    for (NetworkTarget& target : out.targets) target.stands = true;  // on the table
+  } else if (options.rig_moves) {
     const auto datum = std::find_if(targets.begin(), targets.end(), [](const Target& t) { return t.stands; });
     if (datum == targets.end())
       bad_input({}, "a rig that moves needs a target that stands (stands = true in its file)");
     out.datum = static_cast<int>(datum - targets.begin());
   }
   out.frames = static_cast<int>(frames.size());
+  if (options.table_step_rad != 0) {
+    for (const std::string& name : frames)
+      out.table_angles.push_back(options.table_step_rad *
+                                 static_cast<double>(parse_integer(name).value_or(0)));
+  }
+  out.held.resize(observations.cameras.size());
+  for (std::size_t c = 0; c < out.held.size(); ++c) {
+    const auto views = std::count_if(observations.views.begin(), observations.views.end(),
+                                     [&](const BoardView& v) { return v.camera == static_cast<int>(c); });
+    if (views < enough_views) out.held[c] = {2, 3};
+  }
   std::map<std::string, int> frame_index;
   for (const std::string& name : frames) frame_index.emplace(name, static_cast<int>(frame_index.size()));
   for (std::size_t v = 0; v < observations.views.size(); ++v) {

@@ -8,8 +8,10 @@
 
 namespace bpms {
 
-// bad_input: no views, or fewer than 3 of a camera.
-void require_views(const Observations& observations);
+// bad_input: no views, or fewer than 3 of a camera. Where `one_will_do`, one is enough: what stands or turns
+// on a table is placed by the other cameras; such a camera is a pinhole with the principal point at the
+// centre.
+void require_views(const Observations& observations, bool one_will_do);
 // In order of their numbers, "9" before "10".
 std::vector<std::string> frame_names(const Observations& observations);
 // bad_input: corners that no target has, a rig that moves without a target that stands, a scale bar that

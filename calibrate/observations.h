@@ -18,6 +18,9 @@ struct BoardView {
   std::string frame;  // digits of the file name
   std::vector<ImageCorner> corners;
   int target = 0;  // index into the targets; an image that shows several has a view of each
+  // As far as measured: the blur of its edges (standard deviation) and the share of its area at the top of
+  // the scale.
+  double blur_px = 0, overexposed = 0;
 };
 
 struct Observations {
@@ -33,6 +36,7 @@ struct Observations {
   std::vector<ObservedCamera> cameras;  // the first one carries the rig's frame
   std::vector<BoardView> views;
   std::vector<Skipped> skipped;
+  std::vector<Skipped> remarks;  // what was left out of images that are used, and what looks wrong with them
 };
 
 // "left01.jpg" -> camera "left", frame "01": the last digits of the name are the frame, what remains without

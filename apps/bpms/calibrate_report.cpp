@@ -165,6 +165,19 @@ Json triangulation_json(const Calibration& c) {
   return out;
 }
 
+// In the frame of the first camera.
+Json turntable_json(const Calibration::Turntable& table) {
+  const auto known = [](const std::optional<double>& v) { return v ? json_number(*v) : Json(nullptr); };
+  return {{"direction", vector_json(table.direction)},
+          {"point_m", vector_json(table.point_m)},
+          {"direction_sigma_rad", json_number(table.direction_sigma_rad)},
+          {"direction_sigma_clustered_rad", json_number(table.direction_sigma_clustered_rad)},
+          {"point_sigma_m", json_number(table.point_sigma_m)},
+          {"point_sigma_clustered_m", json_number(table.point_sigma_clustered_m)},
+          {"halves_angle_rad", known(table.halves_angle_rad)},
+          {"halves_distance_m", known(table.halves_distance_m)}};
+}
+
 }  // namespace
 
 Json calibration_json(const Calibration& c, const Observations& observations,
@@ -209,6 +222,7 @@ Json calibration_json(const Calibration& c, const Observations& observations,
   if (c.half_sets)
     for (const ProjectionMap& map : c.half_sets->difference)
       out["half_sets"]["difference"].push_back(map_json(map));
+  if (c.turntable) out["turntable"] = turntable_json(*c.turntable);
   out["seconds"] = {{"solve", c.solve_seconds}, {"uncertainty", c.uncertainty_seconds}};
   return out;
 }

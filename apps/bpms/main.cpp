@@ -16,8 +16,9 @@ namespace {
 using bpms::Cli;
 
 constexpr void (*verbs[])(Cli&) = {
-    bpms::add_check,    bpms::add_calibrate, bpms::add_reconstruct, bpms::add_fit,      bpms::add_build,
-    bpms::add_describe, bpms::add_view,      bpms::add_simulate,    bpms::add_recolour, bpms::add_report,
+    bpms::add_check,    bpms::add_target,   bpms::add_calibrate, bpms::add_reconstruct,
+    bpms::add_fit,      bpms::add_build,    bpms::add_describe,  bpms::add_view,
+    bpms::add_simulate, bpms::add_recolour, bpms::add_report,
 };
 
 int parse_and_run(Cli& cli, int argc, char** argv) {

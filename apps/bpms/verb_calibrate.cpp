@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "core/units.h"
 
 namespace bpms {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 struct CalibrateArguments {
   std::vector<std::string> images;
   std::string corners, image_size, target, model = "brown4";
+  double turntable_deg = 0;
   bool no_warp = false, moving_rig = false, free_points = false;
 };
 
@@ -40,6 +42,13 @@ void tell(const Calibration& c, const Observations& observations) {
   note(fmt::format("{} of {} corners in {} views ({} images skipped), residual {:.3f} px, solved in {:.2f} s",
                    c.corners_used, c.corners_total, c.views.size(), observations.skipped.size(),
                    c.residual_sigma_px, c.solve_seconds));
+  if (c.turntable)
+    note(fmt::format(
+        "turntable: axis ({:.5f}, {:.5f}, {:.5f}) +- {:.2g} rad through ({:.4f}, {:.4f}, {:.4f}) m +- {:.2g} "
+        "m",
+        c.turntable->direction.x(), c.turntable->direction.y(), c.turntable->direction.z(),
+        c.turntable->direction_sigma_clustered_rad, c.turntable->point_m.x(), c.turntable->point_m.y(),
+        c.turntable->point_m.z(), c.turntable->point_sigma_clustered_m));
   for (const auto& pair : c.pairs)
     note(fmt::format("baseline {} - {}: {:.3f} mm +- {:.3f} mm ({:.3f} as if corners erred independently)",
                      c.rig.cameras[static_cast<std::size_t>(pair.a)].name,
@@ -56,6 +65,9 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   settings.board_warp = !options.no_warp;
   settings.rig_moves = options.moving_rig;
   settings.free_points = options.free_points;
+  settings.table_step_rad = radians(options.turntable_deg);
+  if (options.moving_rig && options.turntable_deg != 0)
+    bad_input({}, "--moving-rig and --turntable exclude each other");
   Provenance made_from = provenance(cli);
   if (options.target.ends_with(".toml")) made_from.add_input(options.target);
   Observations observations;
@@ -98,6 +110,9 @@ void add_calibrate(Cli& cli) {
                    "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
   verb->add_flag("--moving-rig", options->moving_rig, "the rig is carried around a target that stands");
+  verb->add_option(
+      "--turntable", options->turntable_deg,
+      "the target stands on a table that turns by so many degrees from one frame number to the next");
   verb->add_flag("--free-points", options->free_points,
                  "estimate the points of what stands, with their place together as the datum");
 }

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -7,7 +8,7 @@
 #include "apps/bpms/verb.h"
 #include "apps/bpms/verbs.h"
 #include "calibrate/rig.h"
-#include "calibrate/targets/target.h"
+#include "calibrate/targets/target_kind.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -86,11 +87,21 @@ const std::vector<FileKind>& kinds() {
          return text.find("[[cameras]]") != std::string_view::npos;
        },
        [](const std::string& path) { return fmt::format("{} cameras", read_rig(path).cameras.size()); }},
-      {"board.toml",
-       [](const std::string&, std::string_view text) {
-         return text.find("square_m") != std::string_view::npos;
+      {"target",
+       [](const std::string& path, std::string_view text) {
+         if (path.ends_with(".yaml") || path.ends_with(".yml"))
+           return text.find("target_type") != std::string_view::npos ||
+                  text.find("tag_bundles") != std::string_view::npos;
+         const std::vector<std::string> names = target_kind_names();
+         return path.ends_with(".toml") &&
+                std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+                  return text.find("kind = \"" + name + "\"") != std::string_view::npos;
+                });
        },
-       [](const std::string& path) { return fmt::format("{} corners", read_board(path).size()); }},
+       [](const std::string& path) {
+         const Target target = read_board(path);
+         return fmt::format("{}, {} points", target.kind, target.size());
+       }},
       {"scene.toml",
        [](const std::string& path, std::string_view text) {
          if (!path.ends_with(".toml")) return false;

@@ -4,6 +4,7 @@
 namespace bpms {
 struct Cli;
 void add_check(Cli& cli);
+void add_target(Cli& cli);
 void add_calibrate(Cli& cli);
 void add_reconstruct(Cli& cli);
 void add_fit(Cli& cli);

@@ -30,6 +30,7 @@ std::vector<BlockId> Blocks::enter(const std::vector<BlockId>& ids) {
       case Kind::lens:
         block.values = state_.cameras[a].parameters.data();
         block.size = static_cast<int>(state_.cameras[a].parameters.size());
+        if (a < problem_.held.size()) block.held = problem_.held[a];
         break;
       case Kind::bending:
         block.values = state_.bending_m[a].data(), block.size = 2;
@@ -42,6 +43,8 @@ std::vector<BlockId> Blocks::enter(const std::vector<BlockId>& ids) {
         break;
       case Kind::target:
         block.start = state_.world_from_target[a][b];
+        // What a turn and a lift of the table would do as well.
+        if (problem_.turntable() && id.a == problem_.datum) block.held = {2, 5};
         break;
       case Kind::rig:
         block.start = state_.rig_from_world[a];
@@ -62,8 +65,8 @@ void Blocks::add_corner(int index) {
   };
   want(blocks.lens, problem_.free_lenses, {Kind::lens, corner.camera});
   want(blocks.camera, problem_.free_camera_poses && corner.camera > 0, {Kind::camera, corner.camera});
-  want(blocks.rig, problem_.rig_moves, {Kind::rig, corner.frame});
-  want(blocks.target, !(problem_.rig_moves && corner.target == problem_.datum),
+  want(blocks.rig, problem_.rig_moves, {Kind::rig, static_cast<int>(problem_.rig_slot(corner.frame))});
+  want(blocks.target, !(problem_.rig_moves && !problem_.turntable() && corner.target == problem_.datum),
        {Kind::target, corner.target, static_cast<int>(problem_.slot(corner.target, corner.frame))});
   want(blocks.bending, !target.bending.empty(), {Kind::bending, corner.target});
   want(blocks.point, target.known != PointsKnown::exact, {Kind::point, corner.target, corner.point});

@@ -20,7 +20,8 @@ Kind eliminated_first(const std::map<BlockId, Block>& blocks, const BundleProble
   const auto held = [&](const auto& entry) {
     return entry.first.kind == Kind::target && problem.slots(entry.first.a) > 1;
   };
-  if (problem.rig_moves && std::none_of(blocks.begin(), blocks.end(), held)) return Kind::rig;
+  if (problem.rig_moves && !problem.turntable() && std::none_of(blocks.begin(), blocks.end(), held))
+    return Kind::rig;
   return Kind::target;
 }
 

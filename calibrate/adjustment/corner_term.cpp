@@ -43,7 +43,8 @@ class CornerTerm final : public ceres::CostFunction {
     };
     lens_block_ = next(blocks.lens, static_cast<int>(camera_.parameters.size()));
     links_[0] = {camera_pose(camera_), next(blocks.camera, 6)};
-    if (problem.rig_moves) links_[1].start = state.rig_from_world[static_cast<std::size_t>(corner.frame)];
+    if (problem.rig_moves) links_[1].start = state.rig_from_world[problem.rig_slot(corner.frame)];
+    turn_ = table_turn(problem, corner.frame).r;
     links_[1].block = next(blocks.rig, 6);
     links_[2] = {state.world_from_target[t][problem.slot(corner.target, corner.frame)],
                  next(blocks.target, 6)};
@@ -60,6 +61,7 @@ class CornerTerm final : public ceres::CostFunction {
     std::array<Eigen::Vector3d, 3> rotated;
     Eigen::Vector3d x = on_target;
     for (std::size_t k = 3; k-- > 0;) {
+      if (k == 1) x = turn_ * x;  // the table's, within the world
       rotated[k] = poses[k].r * x;
       x = rotated[k] + poses[k].t_m;
     }
@@ -85,6 +87,7 @@ class CornerTerm final : public ceres::CostFunction {
     for (std::size_t k = 0; k < 3; ++k) {
       if (links_[k].block >= 0) put(links_[k].block, by * links_[k].derivative(p, rotated[k]));
       by = (by * poses[k].r).eval();
+      if (k == 1) by = (by * turn_).eval();
     }
     put(bending_block_, by.col(2) * bending_.transpose());
     put(point_block_, by);
@@ -95,6 +98,7 @@ class CornerTerm final : public ceres::CostFunction {
   Eigen::Vector2d pixel_, bending_ = Eigen::Vector2d::Zero();
   const Camera& camera_;  // what is not moved of it is read
   const Lens* lens_;
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d point_;  // without what is moved
   std::array<Link, 3> links_;
   int lens_block_ = -1, bending_block_ = -1, point_block_ = -1;

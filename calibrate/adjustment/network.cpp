@@ -1,5 +1,6 @@
 #include "calibrate/adjustment/network.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/statistics.h"
@@ -9,13 +10,25 @@ namespace bpms {
 BundleState empty_state(const BundleProblem& problem, std::vector<Camera> cameras) {
   BundleState out;
   out.cameras = std::move(cameras);
-  if (problem.rig_moves) out.rig_from_world.resize(static_cast<std::size_t>(problem.frames));
+  if (problem.rig_moves)
+    out.rig_from_world.resize(problem.turntable() ? 1 : static_cast<std::size_t>(problem.frames));
   for (int t = 0; t < static_cast<int>(problem.targets.size()); ++t) {
     const NetworkTarget& target = problem.targets[static_cast<std::size_t>(t)];
     out.world_from_target.emplace_back(problem.slots(t));
     out.bending_m.emplace_back(0, 0);
     out.shifts_m.emplace_back(target.known == PointsKnown::exact ? 0 : target.points_m.size(),
                               Eigen::Vector3d::Zero());
+  }
+  return out;
+}
+
+std::vector<std::size_t> BundleProblem::free_parameters(int camera, std::size_t count) const {
+  std::vector<std::size_t> out;
+  const auto c = static_cast<std::size_t>(camera);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_held =
+        c < held.size() && std::find(held[c].begin(), held[c].end(), static_cast<int>(i)) != held[c].end();
+    if (!is_held) out.push_back(i);
   }
   return out;
 }
@@ -29,9 +42,17 @@ void set_pose(Camera& camera, const Pose& pose) {
   camera.t_cam_from_rig_m = pose.t_m;
 }
 
+Pose table_turn(const BundleProblem& problem, int frame) {
+  if (!problem.turntable()) return {};
+  return {rotation_from_vector({0, 0, problem.table_angles[static_cast<std::size_t>(frame)]}),
+          Eigen::Vector3d::Zero()};
+}
+
 Pose rig_from_target(const BundleProblem& problem, const BundleState& state, int target, int frame) {
   const Pose& place = state.world_from_target[static_cast<std::size_t>(target)][problem.slot(target, frame)];
-  return problem.rig_moves ? state.rig_from_world[static_cast<std::size_t>(frame)] * place : place;
+  return problem.rig_moves
+             ? state.rig_from_world[problem.rig_slot(frame)] * table_turn(problem, frame) * place
+             : place;
 }
 
 Eigen::Vector3d target_point(const BundleProblem& problem, const BundleState& state, int target, int point) {

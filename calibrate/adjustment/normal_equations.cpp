@@ -28,7 +28,8 @@ struct Elimination {
     if (nature)
       return id.kind == Kind::point &&
              problem.targets[static_cast<std::size_t>(id.a)].known == PointsKnown::unknown;
-    return id.kind == Kind::rig || (id.kind == Kind::target && problem.slots(id.a) > 1);
+    return (id.kind == Kind::rig && !problem.turntable()) ||
+           (id.kind == Kind::target && problem.slots(id.a) > 1);
   }
   // Of a term; {-1, -1}: it has nothing that is eliminated.
   std::pair<int, int> cell(const Term& term) const {
@@ -60,7 +61,7 @@ std::vector<std::string> block_names(const BundleProblem& problem, const BundleS
     for (auto name = begin; name != end; ++name) out.push_back(state.cameras[a].name + "." + *name);
     return out;
   }
-  const std::string frame = fmt::format("the rig in frame {}", id.a + 1);
+  const std::string frame = problem.turntable() ? "turntable" : fmt::format("rig in frame {}", id.a + 1);
   const std::string target = id.kind == Kind::rig ? frame : problem.targets[a].name;
   if (id.kind == Kind::bending) return {"the bending of the " + target, "the bending of the " + target};
   if (id.kind == Kind::point) {

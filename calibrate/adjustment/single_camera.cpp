@@ -68,6 +68,9 @@ Camera first_guess(const Observations::ObservedCamera& observed, const LensChoic
 BundleProblem alone_of(const BundleProblem& joint, int camera, const ViewProjections& views) {
   BundleProblem out = joint;
   out.rig_moves = false;
+  out.table_angles.clear();
+  if (static_cast<std::size_t>(camera) < joint.held.size())
+    out.held = {joint.held[static_cast<std::size_t>(camera)]};
   for (NetworkTarget& target : out.targets) {
     target.stands = false;
     target.known = PointsKnown::exact;
@@ -86,9 +89,12 @@ SingleCamera single_camera(const BundleProblem& joint, int index,
                            const Observations::ObservedCamera& observed, const LensChoice& lens) {
   const Eigen::Vector2d centre(0.5 * (observed.width_px - 1), 0.5 * (observed.height_px - 1));
   const ViewProjections views = view_projections(joint, index, centre);
+  const bool weak = static_cast<std::size_t>(index) < joint.held.size() &&
+                    !joint.held[static_cast<std::size_t>(index)].empty();
   const double f = focal_length(views, std::max(observed.width_px, observed.height_px));
   BundleProblem alone = alone_of(joint, index, views);
-  BundleState state = empty_state(alone, {first_guess(observed, lens, f, centre)});
+  BundleState state =
+      empty_state(alone, {first_guess(observed, weak ? lens_choice("pinhole") : lens, f, centre)});
   for (const auto& [key, view] : views)
     state.world_from_target[static_cast<std::size_t>(key.second)][static_cast<std::size_t>(key.first)] =
         camera_from_target(view, f);
@@ -106,7 +112,7 @@ SingleCamera single_camera(const BundleProblem& joint, int index,
     out.camera_from_target[{corner.frame, corner.target}] =
         rig_from_target(alone, state, corner.target, corner.frame);
   out.camera = state.cameras[0];
-  out.camera.parameters.resize(static_cast<std::size_t>(lens.parameters), 0.0);
+  if (!weak) out.camera.parameters.resize(static_cast<std::size_t>(lens.parameters), 0.0);
   return out;
 }
 

@@ -152,7 +152,10 @@ SyntheticNetwork synthetic_network(const SyntheticNetworkOptions& options) {
   Philox random(options.seed);
   BundleProblem& problem = out.problem;
   problem.frames = options.frames;
-  problem.rig_moves = options.rig_moves;
+  const bool table = options.table_step_rad != 0;
+  problem.rig_moves = options.rig_moves || table;
+  for (int f = 0; table && f < options.frames; ++f)
+    problem.table_angles.push_back(f * options.table_step_rad);
   for (int k = 0; k < options.held_boards; ++k) problem.targets.push_back(flat_board(k));
   const std::size_t box = problem.targets.size();
   if (options.control_frame) {
@@ -175,7 +178,13 @@ SyntheticNetwork synthetic_network(const SyntheticNetworkOptions& options) {
   std::vector<Camera> cameras;
   for (int c = 0; c < options.cameras; ++c) cameras.push_back(network_camera(c, options.lens, random));
   out.truth = empty_state(problem, std::move(cameras));
-  for (int f = 0; f < options.frames; ++f) {
+  if (table) {
+    // The axis leans a little towards the cameras, the board is tilted by 40 degrees beside it.
+    out.truth.rig_from_world[0] = {rotation_from_vector({radians(105.0), 0, 0.03}), {-0.1, 0.1, 0.9}};
+    problem.targets[0].stands = true;
+    out.truth.world_from_target[0] = {{rotation_from_vector({radians(50.0), 0, 0}), {-0.1, 0.05, 0.03}}};
+  }
+  for (int f = 0; !table && f < options.frames; ++f) {
     const auto at = static_cast<std::size_t>(f);
     if (options.rig_moves) out.truth.rig_from_world[at] = carried_rig(random);
     for (std::size_t t = 0; t < box; ++t) {
@@ -184,7 +193,7 @@ SyntheticNetwork synthetic_network(const SyntheticNetworkOptions& options) {
           options.rig_moves ? out.truth.rig_from_world[at].inverse() * before : before;
     }
   }
-  if (options.control_frame && !options.rig_moves) out.truth.world_from_target[box][0] = carried_rig(random);
+  if (options.control_frame && !problem.rig_moves) out.truth.world_from_target[box][0] = carried_rig(random);
   for (std::size_t t = 0; t < box; ++t) out.truth.bending_m[t] = {0.05e-3, -0.1e-3};
   see(out);
   return out;

@@ -16,6 +16,7 @@ struct SyntheticNetworkOptions {
   bool control_frame = false;              // 0.6 m wide, 48 points, stands
   PointsKnown known = PointsKnown::exact;  // of the control frame's points
   double survey_sigma_m = 1e-4;            // of each coordinate of a surveyed point; of a scale bar
+  double table_step_rad = 0;               // not 0: the first board stands on a turntable before the cameras
   int scale_bars = 0;                      // between corners of the control frame
   std::string lens = "brown4";
   std::uint64_t seed = 1;

@@ -10,12 +10,14 @@ namespace bpms {
 namespace {
 
 // The solution's parameters as differences from another one, in the order of the normal equations.
-Eigen::VectorXd difference(const BundleState& state, const BundleState& from, Eigen::Index columns) {
+Eigen::VectorXd difference(const BundleProblem& problem, const BundleState& state, const BundleState& from,
+                           Eigen::Index columns) {
   Eigen::VectorXd out(columns);
   Eigen::Index at = 0;
   for (std::size_t c = 0; c < state.cameras.size(); ++c) {
     const Camera &a = state.cameras[c], &b = from.cameras[c];
-    for (std::size_t i = 0; i < a.parameters.size(); ++i) out[at++] = a.parameters[i] - b.parameters[i];
+    for (const std::size_t i : problem.free_parameters(static_cast<int>(c), a.parameters.size()))
+      out[at++] = a.parameters[i] - b.parameters[i];
     if (c == 0) continue;
     out.segment<3>(at) = vector_from_rotation(a.r_cam_from_rig * b.r_cam_from_rig.transpose());
     out.segment<3>(at + 3) = a.t_cam_from_rig_m - b.t_cam_from_rig_m;
@@ -36,7 +38,7 @@ Clustered jackknife(const BundleProblem& problem, const BundleState& solution,
     keep[static_cast<std::size_t>(equations.frames[i].frame)] = false;
     const BundleState without = solve_subset(problem, solution, keep);
     Eigen::VectorXd column(columns + count);
-    column.head(columns) = difference(without, solution, columns);
+    column.head(columns) = difference(problem, without, solution, columns);
     for (Eigen::Index p = 0; p < count; ++p) {
       const CameraPair& pair = pairs[static_cast<std::size_t>(p)];
       column[columns + p] = relative_pose(without.cameras, pair.a, pair.b).t_m.norm();
@@ -60,14 +62,16 @@ Pose relative_pose(const std::vector<Camera>& cameras, int a, int b) {
 }
 
 // t = t_b - R_ba t_a with R_ba = exp(w_b) R_ba exp(-w_a).
-Eigen::VectorXd baseline_gradient(const std::vector<Camera>& cameras, int a, int b, Eigen::Index columns) {
+Eigen::VectorXd baseline_gradient(const BundleProblem& problem, const std::vector<Camera>& cameras, int a,
+                                  int b, Eigen::Index columns) {
   const Pose pose = relative_pose(cameras, a, b);
   const Eigen::RowVector3d direction = pose.t_m.normalized().transpose();
   const Eigen::Vector3d& t_a = cameras[static_cast<std::size_t>(a)].t_cam_from_rig_m;
   Eigen::VectorXd out = Eigen::VectorXd::Zero(columns);
   Eigen::Index at = 0;
   for (int c = 0; c < static_cast<int>(cameras.size()); ++c) {
-    at += static_cast<Eigen::Index>(cameras[static_cast<std::size_t>(c)].parameters.size());
+    at += static_cast<Eigen::Index>(
+        problem.free_parameters(c, cameras[static_cast<std::size_t>(c)].parameters.size()).size());
     if (c == 0) continue;
     if (c == a) {
       out.segment<3>(at) = (-direction * pose.r * cross_matrix(t_a)).transpose();
@@ -103,7 +107,7 @@ Clustered clustered_by_frame(const BundleProblem& problem, const BundleState& so
   const auto columns = static_cast<Eigen::Index>(equations.order.size());
   Clustered out{v.diagonal().head(columns).cwiseSqrt(), {}};
   for (const CameraPair& pair : pairs) {
-    const Eigen::VectorXd gradient = baseline_gradient(solution.cameras, pair.a, pair.b, v.rows());
+    const Eigen::VectorXd gradient = baseline_gradient(problem, solution.cameras, pair.a, pair.b, v.rows());
     out.baseline_sigma_m.push_back(std::sqrt(gradient.dot(v * gradient)));
   }
   return out;

@@ -8,7 +8,8 @@ namespace bpms {
 // The pose of camera b seen from camera a.
 Pose relative_pose(const std::vector<Camera>& cameras, int a, int b);
 // d(baseline between a and b)/d(parameters of the normal equations).
-Eigen::VectorXd baseline_gradient(const std::vector<Camera>& cameras, int a, int b, Eigen::Index columns);
+Eigen::VectorXd baseline_gradient(const BundleProblem& problem, const std::vector<Camera>& cameras, int a,
+                                  int b, Eigen::Index columns);
 
 struct CameraPair {
   int a = 0, b = 0;

@@ -12,8 +12,19 @@ namespace bpms {
 // A name or pattern that matches nothing stays, and is skipped later.
 std::vector<std::string> expand_patterns(const std::vector<std::string>& arguments);
 
-// Finds the target in all images, in parallel. Missing and unreadable files, images of another size than most
-// of their camera's, and images without the whole board are skipped with a reason.
-Observations find_corners(const std::vector<std::string>& images, const Target& target);
+struct FindOptions {
+  std::string debug_folder;  // where a picture of what was found in each image goes; empty: nowhere
+  bool overwrite = false;
+};
+
+// Finds the targets in all images, in parallel. A view of each target that an image shows. Skipped with a
+// reason: missing, damaged and unreadable files, the same file twice, images of another size or by another
+// camera or zoom (EXIF) than most of their camera's, and images without any target.
+Observations find_corners(const std::vector<std::string>& images, const std::vector<Target>& targets,
+                          const FindOptions& options = {});
+inline Observations find_corners(const std::vector<std::string>& images, const Target& target,
+                                 const FindOptions& options = {}) {
+  return find_corners(images, std::vector<Target>{target}, options);
+}
 
 }  // namespace bpms

@@ -28,6 +28,7 @@ std::vector<std::string> lens_models() {
 
 const std::vector<LensChoice>& lens_choices() {
   static const std::vector<LensChoice> choices{
+      {"pinhole", "no distortion", "brown_conrady", 4},
       {"brown4", "k1 k2 p1 p2", "brown_conrady", 8},
       {"brown5", "k3 besides", "brown_conrady", 9, "brown4"},
       {"brown8", "rational, k4 k5 k6 besides", "brown_conrady", 12, "brown4"}};

@@ -5,6 +5,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calibrate/targets/refine_corners.h"
+
 namespace bpms {
 namespace {
 
@@ -29,17 +31,6 @@ bool find_board(const cv::Mat& grey, const Target& target, std::vector<cv::Point
                                 cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE))
     return true;
   return cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE);
-}
-
-void refine(const cv::Mat& grey, const Target& target, std::vector<cv::Point2f>& corners) {
-  constexpr double of_spacing = 0.4;
-  constexpr int widest = 5, narrowest = 2;
-  const int half =
-      std::clamp(static_cast<int>(of_spacing * smallest_spacing(corners, target)), narrowest, widest);
-  constexpr int steps = 100;
-  constexpr double enough_px = 1e-4;
-  cv::cornerSubPix(grey, corners, cv::Size(half, half), cv::Size(-1, -1),
-                   cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, steps, enough_px));
 }
 
 // Sum over the squares between the corners of their grey value, squares of one colour counted negative.
@@ -80,7 +71,7 @@ std::optional<std::vector<Eigen::Vector2d>> find_chessboard(const cv::Mat& grey,
   std::vector<cv::Point2f> corners;
   if (!find_board(grey, target, corners) || static_cast<int>(corners.size()) != target.size())
     return std::nullopt;
-  refine(grey, target, corners);
+  refine_corners(grey, smallest_spacing(corners, target), corners);
   put_in_order(grey, target, corners);
   std::vector<Eigen::Vector2d> out;
   for (const cv::Point2f& corner : corners) out.emplace_back(corner.x, corner.y);

@@ -58,6 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
         StatisticsCase{"CarriedAroundAFrame",
                        {.frames = 12, .rig_moves = true, .held_boards = 0, .control_frame = true}},
         StatisticsCase{"CarriedWithABoardHeld", {.frames = 8, .rig_moves = true, .control_frame = true}},
+        StatisticsCase{"Turntable", {.frames = 10, .table_step_rad = 0.15}},
         StatisticsCase{"SurveyedFrame",
                        {.frames = 10,
                         .rig_moves = true,

@@ -24,6 +24,12 @@ TEST_P(NoiseFreeNetwork, IsFoundFromNothing) {
   for (Eigen::Index i = 0; i < off.size(); ++i)
     EXPECT_LT(std::abs(off[i]), 1e-6) << solved.equations.order[static_cast<std::size_t>(i)];
   for (const CornerObservation& corner : solved.problem.corners) EXPECT_TRUE(corner.used);
+  if (GetParam().options.table_step_rad != 0) {
+    const TurntableAxis found = turntable_axis(solved.state.rig_from_world[0]),
+                        true_axis = turntable_axis(network.truth.rig_from_world[0]);
+    EXPECT_LT((found.direction - true_axis.direction).norm(), 1e-8);
+    EXPECT_LT((found.point_m - true_axis.point_m).norm(), 1e-8);
+  }
   if (!GetParam().options.rig_moves || GetParam().options.known == PointsKnown::free) return;
   for (std::size_t f = 0; f < network.truth.rig_from_world.size(); ++f) {
     EXPECT_LT((solved.state.rig_from_world[f].t_m - network.truth.rig_from_world[f].t_m).norm(), 1e-7);
@@ -44,6 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
         NetworkCase{
             "SurveyedFrame",
             {.rig_moves = true, .held_boards = 0, .control_frame = true, .known = PointsKnown::surveyed}},
+        NetworkCase{"Turntable", {.frames = 12, .table_step_rad = 0.12}},
+        NetworkCase{"TurntableTheOtherWay", {.cameras = 1, .frames = 12, .table_step_rad = -0.12}},
         NetworkCase{"FreeFrameWithBars",
                     {.rig_moves = true,
                      .held_boards = 0,
