@@ -118,6 +118,7 @@ export const calibrate = object({
   covariance_kind: text,
   covariance: optional(object({ order: list(text), matrix: list(numbers) })),
   triangulation: rows(triangulation),
+  turntable: optional(object({ direction: numbers, point_m: numbers, direction_sigma_clustered_rad: number, point_sigma_clustered_m: number })),
   lens_selection: rows(choice),
 });
 export type Calibrate = Infer<typeof calibrate>;

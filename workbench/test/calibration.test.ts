@@ -131,6 +131,13 @@ test("boards stand where the frames saw them", () => {
   expected.forEach((v, i) => expect(spec?.mesh?.positions[i]).toBeCloseTo(v, 12));
 });
 
+test("the axis of a turntable is a line through its point", () => {
+  const spec = sceneSpec(calibrate({ ...sample, turntable: { direction: [0, 1, 0], point_m: [0.1, 0, 0.5] } }));
+  const ends = spec?.curves?.find((c) => c.label === "axis of the turntable")?.points ?? [];
+  expect(ends.map((p) => [p[0], p[2]])).toEqual([[0.1, 0.5], [0.1, 0.5]]);
+  expect((ends[0]?.[1] ?? 0) + (ends[1]?.[1] ?? 1)).toBeCloseTo(0, 12);
+});
+
 test("residuals are compared with their own sigma, without the views left out", () => {
   const r = calibrate({ residual_sigma_px: 0.5, views: [{ residuals: [[0, 0, 1, -0.5]] }, { outlier: true, residuals: [[0, 0, 9, 9]] }] });
   expect(normalised(r)).toEqual([2, -1]);

@@ -159,6 +159,16 @@ function axes(length: number): { curves: CurveSpec[]; labels: NonNullable<SceneS
   };
 }
 
+// The axis of a turntable, given in the rig's frame.
+function turntableAxis(r: Calibrate, reach: number): CurveSpec[] {
+  const [d, p] = [r.turntable?.direction ?? [], r.turntable?.point_m ?? []];
+  if (d.length !== 3 || p.length !== 3 || [...d, ...p].some((v) => v === null)) return [];
+  // Drawn about the place nearest to the middle of what the cameras look at.
+  const along = (d[2] ?? 0) * reach;
+  const at = (t: number): Point3 => [0, 1, 2].map((i) => (p[i] ?? 0) + (along + t) * (d[i] ?? 0)) as Point3;
+  return [{ label: "axis of the turntable", colour: ink, width: 2.5, points: [at(-0.5 * reach), at(0.5 * reach)] }];
+}
+
 // Small enough that neighbours do not run into each other, large enough to be seen.
 function frustumDepth(all: readonly Eye[], reach: number): number {
   const centres = all.filter((e) => e.frame === all[0]?.frame).map((e) => e.toScene([0, 0, 0]));
@@ -188,7 +198,7 @@ export function sceneSpec(r: Calibrate): SceneSpec | null {
   const labels = moves ? [] : all.map((e) => ({ text: e.camera.name ?? "?", at: e.toScene([0, -1.1 * depth, 0.6 * depth]) }));
   return {
     ...(mesh.indices.length > 0 ? { mesh } : {}),
-    curves: [...all.flatMap((e) => frustum(e, depth)), ...outlines, ...path, ...cross.curves],
+    curves: [...all.flatMap((e) => frustum(e, depth)), ...outlines, ...path, ...(moves ? [] : turntableAxis(r, reach)), ...cross.curves],
     dots,
     labels: [...labels, ...cross.labels],
     colourings: ["frame", "rms residual"],

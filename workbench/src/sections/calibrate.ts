@@ -49,6 +49,11 @@ export const calibrate = defineSection({
     lensTable(r, s);
     targetTables(r, s);
     calibrationScene(r, s);
+    if (r.turntable)
+      s.paragraph(
+        `The axis of the turntable is known to ${significant(1000 * (r.turntable.direction_sigma_clustered_rad ?? NaN), 2)} mrad in direction ` +
+          `and ${length(r.turntable.point_sigma_clustered_m, null, 2)} across it (σ by frame).`,
+      );
     s.heading("Residuals");
     errorsByView(r, s);
     errorsByFrame(r, s);
