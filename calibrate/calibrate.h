@@ -68,6 +68,7 @@ struct Calibration {
     bool outlier = false;
     std::string reason;                      // why it is one; else empty
     std::vector<Eigen::Vector4d> residuals;  // u, v, measured minus projected; of the corners used
+    std::vector<int> points;                 // of the target, one for each residual
   };
   std::vector<View> views;
   struct Outlier {
