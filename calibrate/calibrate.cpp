@@ -217,10 +217,15 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
   out.solve_seconds = seconds_since(start);
 
   const Clock::time_point uncertainty_start = Clock::now();
+  // Of what is projected, numbers that err against each other cancel: the maps need the covariance by frame
+  // as it is, not the one scaled for the file.
+  Rig::Covariance for_maps{equations.order, std::pow(equations.sigma_px(), 2) * inverse.topLeftCorner(n, n),
+                           "iid"};
   if (options.uncertainty) {
     try {
       const Clustered clustered = clustered_by_frame(problem, state, equations, inverse, pairs);
       out.sigma_clustered = clustered.sigma;
+      for_maps = {equations.order, clustered.covariance, "clustered"};
       for (std::size_t i = 0; i < pairs.size(); ++i)
         out.pairs[i].baseline_sigma_clustered_m = clustered.baseline_sigma_m[i];
       add_half_sets(problem, state, frames, ranges_m, out);
@@ -239,7 +244,7 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
   }
   for (std::size_t c = 0; c < state.cameras.size(); ++c)
     out.projection.push_back(projection_uncertainty(
-        state.cameras[c], lens_covariance(*out.rig.covariance, state.cameras[c]), {.range_m = ranges_m[c]}));
+        state.cameras[c], lens_covariance(for_maps, state.cameras[c]), {.range_m = ranges_m[c]}));
   out.uncertainty_seconds = seconds_since(uncertainty_start);
   return out;
 }

@@ -97,7 +97,7 @@ struct Calibration {
     std::vector<ProjectionMap> difference;                                  // of each camera
   };
   std::optional<HalfSets> half_sets;
-  // Of each camera at the usual distance of its corners, from the covariance in the rig.
+  // Of each camera at the usual distance of its corners, from the covariance by frame.
   std::vector<ProjectionMap> projection;
   struct Turntable {  // its axis in the rig's frame, direction and nearest point to the origin
     Eigen::Vector3d direction = Eigen::Vector3d::Zero(), point_m = Eigen::Vector3d::Zero();

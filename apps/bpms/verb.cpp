@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "core/text.h"
 
 namespace bpms {
 
@@ -82,6 +83,17 @@ void deliver_report(const Cli& cli, const std::string& verb, Json report, const 
   } else {
     write_file(path, out.dump(1, ' ', false, replace) + "\n", cli.common.overwrite);
   }
+}
+
+std::pair<int, int> parse_image_size(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  if (cross != std::string::npos) {
+    const auto width = parse_integer(text.substr(0, cross)), height = parse_integer(text.substr(cross + 1));
+    constexpr long long most = 1'000'000;
+    if (width && height && *width > 0 && *height > 0 && *width <= most && *height <= most)
+      return {static_cast<int>(*width), static_cast<int>(*height)};
+  }
+  bad_input({}, "--image-size {}; expected WIDTHxHEIGHT, as in 640x480", in_quotes(text));
 }
 
 }  // namespace bpms

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "core/json.h"
 #include "core/provenance.h"
@@ -57,5 +58,8 @@ void require_outputs(const Cli& cli, const std::vector<std::string>& outputs);
 
 // Missing -o is bad input, and so is -o -: these outputs are files.
 const std::string& require_output(const Cli& cli);
+
+// "640x480", of --image-size.
+std::pair<int, int> parse_image_size(const std::string& text);
 
 }  // namespace bpms

@@ -30,17 +30,6 @@ struct CalibrateArguments {
   bool no_warp = false, moving_rig = false, free_points = false;
 };
 
-std::pair<int, int> parse_size(const std::string& text) {
-  const std::size_t cross = text.find('x');
-  if (cross != std::string::npos) {
-    const auto width = parse_integer(text.substr(0, cross)), height = parse_integer(text.substr(cross + 1));
-    constexpr long long most = 1'000'000;
-    if (width && height && *width > 0 && *height > 0 && *width <= most && *height <= most)
-      return {static_cast<int>(*width), static_cast<int>(*height)};
-  }
-  bad_input({}, "--image-size {}; expected WIDTHxHEIGHT, as in 640x480", in_quotes(text));
-}
-
 void tell(const Calibration& c, const Observations& observations) {
   for (const auto& [image, reason] : observations.skipped) note(fmt::format("skipped {}: {}", image, reason));
   for (const auto& [image, remark] : observations.remarks) note(fmt::format("{}: {}", image, remark));
@@ -107,7 +96,8 @@ void identify_cameras(const Observations& observations, const std::vector<std::s
 void run_check(const Cli& cli, const CalibrateArguments& options) {
   CheckRigArguments check = options.check;
   check.images.insert(check.images.end(), options.images.begin(), options.images.end());
-  if (options.targets.size() > 1) bad_input({}, "--check takes one --target; {} are given", options.targets.size());
+  if (options.targets.size() > 1)
+    bad_input({}, "--check takes one --target; {} are given", options.targets.size());
   check.target = options.targets.front();
   check.no_warp = options.no_warp;
   if (!options.corners.empty() || !options.identity.empty() || !cli.common.output.empty())
@@ -138,7 +128,7 @@ void run(const Cli& cli, const CalibrateArguments& options) {
     if (!options.images.empty()) bad_input({}, "--images and --corners exclude each other");
     if (options.image_size.empty()) bad_input({}, "--corners needs --image-size WIDTHxHEIGHT");
     if (targets.size() > 1) bad_input({}, "--corners are those of one target; {} are given", targets.size());
-    const auto [width, height] = parse_size(options.image_size);
+    const auto [width, height] = parse_image_size(options.image_size);
     observations = read_corners(options.corners, width, height, targets.front().size());
     made_from.add_input(options.corners);
   } else {

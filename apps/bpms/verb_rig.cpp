@@ -24,14 +24,8 @@ struct RigArguments {
 RigFromFile read_files(const RigArguments& options) {
   RigReading reading;
   if (!options.image_size.empty()) {
-    const std::size_t cross = options.image_size.find('x');
-    const auto width = parse_integer(options.image_size.substr(0, cross));
-    const auto height =
-        cross == std::string::npos ? std::nullopt : parse_integer(options.image_size.substr(cross + 1));
-    constexpr long long most = 1'000'000;
-    if (!width || !height || *width < 1 || *height < 1 || *width > most || *height > most)
-      bad_input({}, "--image-size {}; expected WIDTHxHEIGHT, as in 640x480", in_quotes(options.image_size));
-    reading.size_px = {static_cast<int>(*width), static_cast<int>(*height)};
+    const auto [width, height] = parse_image_size(options.image_size);
+    reading.size_px = {width, height};
   }
   reading.unit_m = parse_length("1" + options.unit, {"--unit"});
   return read_rig_file(options.files, reading);

@@ -47,9 +47,10 @@ Clustered jackknife(const BundleProblem& problem, const BundleState& solution,
   });
   const Eigen::VectorXd mean = values.rowwise().mean();
   const double f = static_cast<double>(n);
-  const Eigen::VectorXd sigma =
-      ((values.colwise() - mean).rowwise().squaredNorm() * ((f - 1) / f)).cwiseSqrt();
-  Clustered out{sigma.head(columns), {}};
+  const Eigen::MatrixXd from_mean = values.colwise() - mean;
+  const Eigen::MatrixXd covariance = from_mean * from_mean.transpose() * ((f - 1) / f);
+  const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
+  Clustered out{covariance.topLeftCorner(columns, columns), sigma.head(columns), {}};
   for (Eigen::Index p = 0; p < count; ++p) out.baseline_sigma_m.push_back(sigma[columns + p]);
   return out;
 }
@@ -104,7 +105,7 @@ Clustered clustered_by_frame(const BundleProblem& problem, const BundleState& so
   if (equations.frames.size() < enough_for_sandwich) return jackknife(problem, solution, equations, pairs);
   const Eigen::MatrixXd v = sandwich(equations, cofactors);
   const auto columns = static_cast<Eigen::Index>(equations.order.size());
-  Clustered out{v.diagonal().head(columns).cwiseSqrt(), {}};
+  Clustered out{v.topLeftCorner(columns, columns), v.diagonal().head(columns).cwiseSqrt(), {}};
   for (const CameraPair& pair : pairs) {
     const Eigen::VectorXd gradient = baseline_gradient(problem, solution.cameras, pair.a, pair.b, v.rows());
     out.baseline_sigma_m.push_back(std::sqrt(gradient.dot(v * gradient)));

@@ -16,7 +16,8 @@ struct CameraPair {
 };
 
 struct Clustered {
-  Eigen::VectorXd sigma;                 // of each parameter in NormalEquations::order
+  Eigen::MatrixXd covariance;            // of NormalEquations::order; its rank is that of the frames
+  Eigen::VectorXd sigma;                 // of each parameter
   std::vector<double> baseline_sigma_m;  // of each pair
 };
 // Below 20 frames by jackknife, else by sandwich. numeric error when a solve without a frame fails.

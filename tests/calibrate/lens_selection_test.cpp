@@ -38,7 +38,7 @@ TEST_P(LensOfKnownTruth, IsChosen) {
 INSTANTIATE_TEST_SUITE_P(
     Truths, LensOfKnownTruth,
     ::testing::Values(KnownLens{"brown4", 535, 0.15, 30, {"brown4", "fisheye", "brown5", "brown8"}},
-                      KnownLens{"brown8", 180, 0.05, 40, {"brown4", "brown5", "brown8"}},
+                      KnownLens{"brown8", 220, 0.02, 100, {"brown4", "brown5", "brown8"}},
                       KnownLens{"fisheye", 240, 0.1, 30, {"brown4", "fisheye", "brown5", "brown8"}},
                       KnownLens{"splined", 535, 0.05, 60, {"brown4", "brown8", "splined"}}));
 
