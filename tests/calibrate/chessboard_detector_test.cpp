@@ -46,7 +46,7 @@ TEST(Detector, CamerasOfAFrameAgreeOnABoardThatHalfATurnLeavesAlike) {
   const Target target = make_target(8, 6);
   std::vector<std::string> files;
   for (const auto& [name, roll] :
-       {std::pair{"left1.png", 2.0}, {"right1.png", -60.0}, {"left2.png", 178.0}, {"right2.png", 120.0}}) {
+       {std::pair{"left1.png", 2.0}, {"right1.png", -60.0}, {"left2.png", 178.0}, {"right2.png", 122.0}}) {
     files.push_back(folder / name);
     cv::imwrite(files.back(), render(target, look_at(target, roll, 25)));
   }
