@@ -24,10 +24,9 @@ struct RigArguments {
 RigFromFile read_files(const RigArguments& options) {
   RigReading reading;
   if (!options.image_size.empty()) {
-    const std::size_t cross = options.image_size.find('x');
+    const std::size_t cross = std::min(options.image_size.find('x'), options.image_size.size() - 1);
     const auto width = parse_integer(options.image_size.substr(0, cross));
-    const auto height =
-        cross == std::string::npos ? std::nullopt : parse_integer(options.image_size.substr(cross + 1));
+    const auto height = parse_integer(options.image_size.substr(cross + 1));
     constexpr long long most = 1'000'000;
     if (!width || !height || *width < 1 || *height < 1 || *width > most || *height > most)
       bad_input({}, "--image-size {}; expected WIDTHxHEIGHT, as in 640x480", in_quotes(options.image_size));
