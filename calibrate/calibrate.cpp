@@ -10,8 +10,10 @@
 #include "calibrate/adjustment/turntable.h"
 #include "calibrate/adjustment/uncertainty.h"
 #include "calibrate/describe.h"
+#include "calibrate/lenses/lens.h"
 #include "calibrate/network_problem.h"
 #include "calibrate/projection_uncertainty.h"
+#include "calibrate/valid_region.h"
 #include "core/text.h"
 
 namespace bpms {
@@ -32,13 +34,18 @@ bool stationary(const NormalEquations& equations, const Eigen::MatrixXd& cofacto
          decrement < rounding_px * rounding_px * equations.observations;
 }
 
-void require_sound_lenses(const std::vector<Camera>& cameras) {
+void require_sound_lenses(const Observations& observations, const std::vector<Camera>& cameras) {
   for (const Camera& camera : cameras) {
     if (!(camera.parameters[0] > 0) || !(camera.parameters[1] > 0))
       fail(ErrorKind::numeric, {},
            "camera {} came out with focal lengths {:.6g}, {:.6g}: the views do not suit the model",
            in_quotes(camera.name), camera.parameters[0], camera.parameters[1]);
-    if (const auto pixel = pixel_without_ray(camera))
+    // Where an image need not fill its frame, what lies between the corners seen must be sound.
+    const std::vector<Eigen::Vector2d> region =
+        find_lens(camera.model)->covers_image()
+            ? std::vector<Eigen::Vector2d>()
+            : valid_region(observations, static_cast<int>(&camera - cameras.data()));
+    if (const auto pixel = pixel_without_ray(camera, region))
       fail(ErrorKind::numeric, {},
            "the distortion of camera {} folds or has a pole inside the image, near pixel ({:.0f}, {:.0f}): "
            "ask for fewer "
@@ -163,18 +170,6 @@ std::vector<CameraPair> all_pairs(std::size_t cameras) {
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> pixel_without_ray(const Camera& camera) {
-  constexpr int steps = 16;
-  for (int i = 0; i <= steps; ++i) {
-    for (int j = 0; j <= steps; ++j) {
-      const Eigen::Vector2d pixel((camera.width_px - 1) * i / static_cast<double>(steps),
-                                  (camera.height_px - 1) * j / static_cast<double>(steps));
-      if (!unproject(camera, pixel)) return pixel;
-    }
-  }
-  return std::nullopt;
-}
-
 Calibration calibrate(const Observations& observations, const std::vector<Target>& targets,
                       const CalibrateOptions& options) {
   const Clock::time_point start = Clock::now();
@@ -192,7 +187,7 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
   const auto n = static_cast<Eigen::Index>(equations.order.size());
   const Eigen::VectorXd sigma_iid = equations.sigma_px() * inverse.diagonal().head(n).cwiseSqrt();
   require_determined(state.cameras, equations, sigma_iid);  // first: it explains the rest
-  require_sound_lenses(state.cameras);
+  require_sound_lenses(observations, state.cameras);
   if (!search.last.converged || !stationary(equations, inverse))
     fail(ErrorKind::numeric, {}, "the adjustment did not converge (residual rms {:.3g} px after {} steps)",
          equations.rms_px(), search.last.iterations);

@@ -68,6 +68,7 @@ struct Calibration {
     bool outlier = false;
     std::string reason;                      // why it is one; else empty
     std::vector<Eigen::Vector4d> residuals;  // u, v, measured minus projected; of the corners used
+    std::vector<int> points;                 // of the target, one for each residual
   };
   std::vector<View> views;
   struct Outlier {
@@ -119,7 +120,9 @@ inline Calibration calibrate(const Observations& observations, const Target& tar
   return calibrate(observations, std::vector<Target>{target}, options);
 }
 
-// The first pixel on a coarse grid over the image that no ray leads to; nullopt when the lens is sound.
-std::optional<Eigen::Vector2d> pixel_without_ray(const Camera& camera);
+// The first pixel, on a grid over the image or the part of it in a convex region, that no ray leads to or
+// about which the lens folds; nullopt when the lens is sound.
+std::optional<Eigen::Vector2d> pixel_without_ray(const Camera& camera,
+                                                 const std::vector<Eigen::Vector2d>& region = {});
 
 }  // namespace bpms

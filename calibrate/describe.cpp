@@ -19,6 +19,7 @@ void describe_views(const Observations& observations, const BundleProblem& probl
                          search.view_rms_px[v],
                          search.view_out[v],
                          {},
+                         {},
                          {}});
   }
   for (const CornerObservation& corner : problem.corners) {
@@ -28,6 +29,7 @@ void describe_views(const Observations& observations, const BundleProblem& probl
     if (corner.used) {
       ++out.corners_used;
       out.views[v].residuals.emplace_back(corner.pixel.x(), corner.pixel.y(), r->x(), r->y());
+      out.views[v].points.push_back(corner.point);
     } else {
       ++left_out[v];
       out.outliers.push_back({out.views[v].image, corner.point, r ? r->norm() : NAN});

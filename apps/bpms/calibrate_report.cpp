@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "reconstruct/points/pair_uncertainty.h"
 
 namespace bpms {
 namespace {
@@ -85,6 +86,8 @@ Json camera_json(const Calibration& c, std::size_t index) {
         c.sigma_clustered.size() > 0 ? json_number(c.sigma_clustered[k]) : Json(nullptr);
   }
   const std::vector<double>& p = camera.parameters;
+  std::vector<std::string> lens_names = parameter_names(camera);  // the pose's names come last
+  lens_names.resize(p.size());
   return {{"name", camera.name},
           {"model", camera.model},
           {"width", camera.width_px},
@@ -93,6 +96,7 @@ Json camera_json(const Calibration& c, std::size_t index) {
           {"fy", json_number(p[1])},
           {"cx", json_number(p[2])},
           {"cy", json_number(p[3])},
+          {"parameter_names", lens_names},
           {"distortion", std::vector<double>(p.begin() + 4, p.end())},
           {"sigma", sigma},
           {"projection_sigma", index < c.projection.size() ? map_json(c.projection[index]) : Json(nullptr)},
@@ -121,7 +125,44 @@ Json view_json(const Calibration::View& view) {
           {"rms_px", json_number(view.rms_px)},
           {"outlier", view.outlier},
           {"reason", view.reason},
-          {"residuals", residuals}};
+          {"residuals", residuals},
+          {"points", view.points}};
+}
+
+// Row by row. Of a rig of many parameters it is left to rig.toml: a picture of it tells nothing any more.
+Json covariance_json(const Rig::Covariance& covariance) {
+  constexpr std::size_t most = 300;
+  if (covariance.order.size() > most) return nullptr;
+  Json rows = Json::array();
+  for (const auto row : covariance.matrix.rowwise()) {
+    rows.push_back(Json::array());
+    for (const double v : row) rows.back().push_back(json_number(v));
+  }
+  return {{"kind", covariance.kind}, {"order", covariance.order}, {"matrix", rows}};
+}
+
+// How sure each pair that has a baseline places a point, around the distance at which the corners were.
+Json triangulation_json(const Calibration& c) {
+  Json out = Json::array();
+  for (const auto& pair : c.pairs) {
+    const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+    if (!(pair.baseline_m > 0) || std::max(a, b) >= c.projection.size()) continue;
+    const double usual_m = 0.5 * (c.projection[a].range_m + c.projection[b].range_m);
+    if (!(usual_m > 0) || !(c.residual_sigma_px > 0)) continue;
+    std::vector<double> ranges_m;
+    for (const double times : {0.5, 0.7, 1.0, 1.4, 2.0}) ranges_m.push_back(times * usual_m);
+    for (const PairUncertainty& at : pair_uncertainty(c.rig, pair.a, pair.b, c.residual_sigma_px, ranges_m))
+      out.push_back({{"a", c.rig.cameras[a].name},
+                     {"b", c.rig.cameras[b].name},
+                     {"range_m", json_number(at.range_m)},
+                     {"sigma_x_m", json_number(at.sigma_m.x())},
+                     {"sigma_y_m", json_number(at.sigma_m.y())},
+                     {"sigma_z_m", json_number(at.sigma_m.z())},
+                     {"observation_sigma_x_m", json_number(at.observation_sigma_m.x())},
+                     {"observation_sigma_y_m", json_number(at.observation_sigma_m.y())},
+                     {"observation_sigma_z_m", json_number(at.observation_sigma_m.z())}});
+  }
+  return out;
 }
 
 // In the frame of the first camera.
@@ -162,6 +203,8 @@ Json calibration_json(const Calibration& c, const Observations& observations,
   for (std::size_t t = 0; t < targets.size(); ++t)
     out["targets"].push_back(target_result_json(targets[t], c.targets[t]));
   out["poses"] = poses_json(c);
+  out["covariance"] = covariance_json(*c.rig.covariance);
+  out["triangulation"] = triangulation_json(c);
   for (const auto& pair : c.pairs) out["pairs"].push_back(pair_json(c, pair));
   for (const auto& view : c.views) out["views"].push_back(view_json(view));
   for (const auto& [image, reason] : observations.skipped)
@@ -181,6 +224,24 @@ Json calibration_json(const Calibration& c, const Observations& observations,
       out["half_sets"]["difference"].push_back(map_json(map));
   if (c.turntable) out["turntable"] = turntable_json(*c.turntable);
   out["seconds"] = {{"solve", c.solve_seconds}, {"uncertainty", c.uncertainty_seconds}};
+  return out;
+}
+
+Json lens_selection_json(const LensSelection& selection) {
+  Json out = Json::array();
+  for (const LensScore& score : selection.scores) {
+    const bool judged = score.refused.empty();
+    const auto number = [judged](double value) { return judged ? json_number(value) : Json(nullptr); };
+    out.push_back({{"choice", score.lens},
+                   {"parameters", score.parameters},
+                   {"rms_px", number(score.in_sample_rms_px)},
+                   {"cross_validated_px", number(score.predicted_rms_px)},
+                   {"se_px", number(score.predicted_se_px)},
+                   {"worse_px2", number(score.worse_px2)},
+                   {"worse_se_px2", number(score.worse_se_px2)},
+                   {"chosen", score.chosen},
+                   {"refused", judged ? Json(nullptr) : Json(score.refused)}});
+  }
   return out;
 }
 

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "apps/bpms/calibrate_check.h"
@@ -10,6 +9,8 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/images/find_corners.h"
 #include "calibrate/images/image_identity.h"
+#include "calibrate/lens_selection.h"
+#include "calibrate/targets/target_kind.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/nearest.h"
@@ -21,8 +22,8 @@ namespace bpms {
 namespace {
 
 struct CalibrateArguments {
-  std::vector<std::string> images;
-  std::string corners, image_size, target, model = "brown4";
+  std::vector<std::string> images, targets;
+  std::string corners, image_size, debug_images, model = "brown4";
   std::vector<std::string> identity;  // CAMERA.KEY=VALUE
   CheckRigArguments check;
   double turntable_deg = 0;
@@ -42,6 +43,7 @@ std::pair<int, int> parse_size(const std::string& text) {
 
 void tell(const Calibration& c, const Observations& observations) {
   for (const auto& [image, reason] : observations.skipped) note(fmt::format("skipped {}: {}", image, reason));
+  for (const auto& [image, remark] : observations.remarks) note(fmt::format("{}: {}", image, remark));
   for (const auto& view : c.views) {
     if (view.outlier) note(fmt::format("outlier view {}: {}", view.image, view.reason));
   }
@@ -63,6 +65,18 @@ void tell(const Calibration& c, const Observations& observations) {
                      c.rig.cameras[static_cast<std::size_t>(pair.b)].name, pair.baseline_m * 1e3,
                      pair.baseline_sigma_clustered_m.value_or(pair.baseline_sigma_m) * 1e3,
                      pair.baseline_sigma_m * 1e3));
+}
+
+void tell_selection(const LensSelection& selection) {
+  note(fmt::format("lens by cross-validation, {} folds of {} frames:", selection.folds, selection.frames));
+  for (const LensScore& score : selection.scores) {
+    if (!score.refused.empty())
+      note(fmt::format("  {:8} refused: {}", score.lens, score.refused));
+    else
+      note(fmt::format("  {:8} {:3} parameters, rms {:.4f} px, predicts to {:.4f} +- {:.4f} px{}", score.lens,
+                       score.parameters, score.in_sample_rms_px, score.predicted_rms_px,
+                       score.predicted_se_px, score.chosen ? ", chosen" : ""));
+  }
 }
 
 // From the images, then what the user says, which counts more.
@@ -93,7 +107,8 @@ void identify_cameras(const Observations& observations, const std::vector<std::s
 void run_check(const Cli& cli, const CalibrateArguments& options) {
   CheckRigArguments check = options.check;
   check.images.insert(check.images.end(), options.images.begin(), options.images.end());
-  check.target = options.target;
+  if (options.targets.size() > 1) bad_input({}, "--check takes one --target; {} are given", options.targets.size());
+  check.target = options.targets.front();
   check.no_warp = options.no_warp;
   if (!options.corners.empty() || !options.identity.empty() || !cli.common.output.empty())
     bad_input({}, "--check goes with images, --target and --report; not with --corners, --identity or -o");
@@ -106,7 +121,7 @@ void run(const Cli& cli, const CalibrateArguments& options) {
     bad_input({}, "found {}: images to calibrate from are named behind --images",
               in_quotes(options.check.images.front()));
   const std::string& output = require_output(cli);
-  const Target target = parse_target(options.target);
+  const std::vector<Target> targets = parse_targets(options.targets);
   CalibrateOptions settings;
   settings.lens = options.model;
   settings.board_warp = !options.no_warp;
@@ -116,28 +131,38 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   if (options.moving_rig && options.turntable_deg != 0)
     bad_input({}, "--moving-rig and --turntable exclude each other");
   Provenance made_from = provenance(cli);
-  if (options.target.ends_with(".toml")) made_from.add_input(options.target);
+  for (const std::string& text : options.targets)
+    if (is_target_file(text)) made_from.add_input(text);
   Observations observations;
   if (!options.corners.empty()) {
     if (!options.images.empty()) bad_input({}, "--images and --corners exclude each other");
     if (options.image_size.empty()) bad_input({}, "--corners needs --image-size WIDTHxHEIGHT");
+    if (targets.size() > 1) bad_input({}, "--corners are those of one target; {} are given", targets.size());
     const auto [width, height] = parse_size(options.image_size);
-    observations = read_corners(options.corners, width, height, target.size());
+    observations = read_corners(options.corners, width, height, targets.front().size());
     made_from.add_input(options.corners);
   } else {
     if (options.images.empty()) bad_input({}, "nothing to calibrate from: give --images or --corners");
-    observations = find_corners(expand_patterns(options.images), target);
+    observations =
+        find_corners(expand_patterns(options.images), targets, {options.debug_images, cli.common.overwrite});
     for (const BoardView& view : observations.views) made_from.add_input(view.image);
   }
   for (const auto& camera : observations.cameras)
     note(fmt::format("camera {}: {}x{} pixels", camera.name, camera.width_px, camera.height_px));
-  Calibration result = calibrate(observations, target, settings);
+  std::optional<LensSelection> selection;
+  if (options.model == "auto") {
+    selection = choose_lens(observations, targets, {.calibrate = settings});
+    settings.lens = selection->chosen;
+    tell_selection(*selection);
+  }
+  Calibration result = calibrate(observations, targets, settings);
   tell(result, observations);
   identify_cameras(observations, options.identity, result.rig);
   write_file(output, rig_toml(result.rig, "bpms " + version() + "\n" + in_quotes(cli.command)),
              cli.common.overwrite);
-  deliver_report(cli, "calibrate", calibration_json(result, observations, {target}, options.model),
-                 made_from);
+  Json made = calibration_json(result, observations, targets, settings.lens);
+  if (selection) made["lens_selection"] = lens_selection_json(*selection);
+  deliver_report(cli, "calibrate", made, made_from);
 }
 
 }  // namespace
@@ -151,11 +176,16 @@ void add_calibrate(Cli& cli) {
   verb->add_option("--images", options->images, "images or patterns; left01.jpg is frame 01 of camera left");
   verb->add_option("--corners", options->corners, "corners already found: rows of filename x y level");
   verb->add_option("--image-size", options->image_size, "of the images behind --corners, as in 640x480");
-  verb->add_option("--target", options->target,
-                   "chessboard:COLUMNSxROWS:SQUARE (inner corners) or board.toml")
+  verb->add_option("--target", options->targets,
+                   fmt::format("{}, a board.toml or a control_frame.toml; several where images show several",
+                               fmt::join(target_forms(), ", ")))
       ->required();
-  verb->add_option("--model", options->model,
-                   "lens: brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational)");
+  verb->add_option("--debug-images", options->debug_images,
+                   "a folder for pictures of what was found in each image");
+  verb->add_option(
+      "--model", options->model,
+      "lens: pinhole, brown4 (k1 k2 p1 p2, default), brown5 (k3), brown8 (rational), fisheye, splined "
+      "(or splined:COLUMNSxROWS), auto (by cross-validation)");
   verb->add_flag("--no-warp", options->no_warp, "take the board as flat");
   verb->add_option("--identity", options->identity,
                    "CAMERA.KEY=VALUE ..., kept in the rig besides what the images say: left.serial=40123");

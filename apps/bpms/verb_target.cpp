@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 
-#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "apps/bpms/verb.h"
@@ -54,6 +54,10 @@ void run_target(const Cli& cli, const TargetArguments& options) {
   }
   write_file(board, "# " + drawing.caption + "\n" + board_toml(target), cli.common.overwrite);
   note(fmt::format("{} points in {}; calibrate with --target {}", target.size(), board, board));
+  deliver_report(
+      cli, "target",
+      {{"kind", target.kind}, {"points", target.size()}, {"board", board}, {"caption", drawing.caption}},
+      provenance(cli));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "calibrate/adjustment/corner_term.h"
 #include "calibrate/adjustment/knowledge_terms.h"
+#include "calibrate/lenses/lens.h"
 
 namespace bpms {
 namespace {
@@ -16,6 +17,7 @@ Blocks::Blocks(const BundleProblem& problem, BundleState& state) : problem_(prob
   for (int i = 0; i < static_cast<int>(problem.corners.size()); ++i)
     if (problem.corners[static_cast<std::size_t>(i)].used) add_corner(i);
   add_knowledge();
+  add_beliefs();
 }
 
 std::vector<BlockId> Blocks::enter(const std::vector<BlockId>& ids) {
@@ -30,7 +32,10 @@ std::vector<BlockId> Blocks::enter(const std::vector<BlockId>& ids) {
       case Kind::lens:
         block.values = state_.cameras[a].parameters.data();
         block.size = static_cast<int>(state_.cameras[a].parameters.size());
-        if (a < problem_.held.size()) block.held = problem_.held[a];
+        block.held = find_lens(state_.cameras[a].model)
+                         ->held({state_.cameras[a].parameters, state_.cameras[a].constants});
+        if (a < problem_.held.size())
+          block.held.insert(block.held.end(), problem_.held[a].begin(), problem_.held[a].end());
         break;
       case Kind::bending:
         block.values = state_.bending_m[a].data(), block.size = 2;
@@ -103,6 +108,18 @@ void Blocks::add_knowledge() {
             {surveyed_point_term(target.covariance_m2[static_cast<std::size_t>(id.b)], problem_.sigma_px),
              {id}});
     }
+  }
+}
+
+void Blocks::add_beliefs() {
+  for (int c = 0; c < static_cast<int>(state_.cameras.size()); ++c) {
+    const BlockId id{Kind::lens, c};
+    if (!blocks_.contains(id)) continue;
+    const Camera& camera = state_.cameras[static_cast<std::size_t>(c)];
+    auto priors = find_lens(camera.model)->priors({camera.parameters, camera.constants});
+    if (priors.empty()) continue;
+    terms_.push_back(
+        {lens_prior_term(std::move(priors), camera.parameters.size(), problem_.sigma_px), {id}, -1, true});
   }
 }
 

@@ -35,6 +35,9 @@ struct Term {
   std::unique_ptr<ceres::CostFunction> cost;
   std::vector<BlockId> blocks;
   int corner = -1;  // -1: what is known beforehand
+  // No measurement, but what is believed of a lens: it keeps parameters from wandering where no corner is,
+  // and does not count as an observation.
+  bool belief = false;
 };
 
 class Blocks {
@@ -51,6 +54,7 @@ class Blocks {
  private:
   void add_corner(int index);
   void add_knowledge();
+  void add_beliefs();
   std::vector<BlockId> enter(const std::vector<BlockId>& ids);
 
   const BundleProblem& problem_;

@@ -1,4 +1,5 @@
-// Terms of what is known beforehand: surveyed points, scale bars, the datum of free points. In pixels: a
+// Terms of what is known beforehand: surveyed points, scale bars, the datum of free points, beliefs of a
+// lens model. In pixels: a
 // deviation of one sigma counts as sigma_px.
 #pragma once
 #include <ceres/cost_function.h>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "calibrate/adjustment/network.h"
+#include "calibrate/lenses/lens.h"
 
 namespace bpms {
 
@@ -20,5 +22,9 @@ std::unique_ptr<ceres::CostFunction> scale_bar_term(const ScaleBar& bar, const E
 // from the centre are zero.
 std::unique_ptr<ceres::CostFunction> inner_constraints(const std::vector<Eigen::Vector3d>& points_m,
                                                        bool with_size, double sigma_px);
+
+// Block: the lens.
+std::unique_ptr<ceres::CostFunction> lens_prior_term(std::vector<LensPrior> priors, std::size_t parameters,
+                                                     double sigma_px);
 
 }  // namespace bpms

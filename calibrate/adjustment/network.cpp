@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/lenses/lens.h"
 #include "core/statistics.h"
 
 namespace bpms {
@@ -22,14 +23,13 @@ BundleState empty_state(const BundleProblem& problem, std::vector<Camera> camera
   return out;
 }
 
-std::vector<std::size_t> BundleProblem::free_parameters(int camera, std::size_t count) const {
+std::vector<std::size_t> BundleProblem::free_parameters(int index, const Camera& camera) const {
+  std::vector<int> fixed = find_lens(camera.model)->held({camera.parameters, camera.constants});
+  const auto c = static_cast<std::size_t>(index);
+  if (c < held.size()) fixed.insert(fixed.end(), held[c].begin(), held[c].end());
   std::vector<std::size_t> out;
-  const auto c = static_cast<std::size_t>(camera);
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool is_held =
-        c < held.size() && std::find(held[c].begin(), held[c].end(), static_cast<int>(i)) != held[c].end();
-    if (!is_held) out.push_back(i);
-  }
+  for (std::size_t i = 0; i < camera.parameters.size(); ++i)
+    if (std::find(fixed.begin(), fixed.end(), static_cast<int>(i)) == fixed.end()) out.push_back(i);
   return out;
 }
 

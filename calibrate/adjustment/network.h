@@ -62,7 +62,7 @@ struct BundleProblem {
     return targets[static_cast<std::size_t>(target)].stands ? 1 : static_cast<std::size_t>(frames);
   }
   // Of a camera's lens: which parameters are estimated.
-  std::vector<std::size_t> free_parameters(int camera, std::size_t count) const;
+  std::vector<std::size_t> free_parameters(int index, const Camera& camera) const;
   bool turntable() const { return !table_angles.empty(); }
   std::size_t rig_slot(int frame) const { return turntable() ? 0 : static_cast<std::size_t>(frame); }
   std::size_t slot(int target, int frame) const {

@@ -134,6 +134,7 @@ class Cell {
       if (kept) kept_ = size_;
     }
     normal_.setZero(size_, size_);
+    believed_.setZero(size_, size_);
   }
 
   void add(const Term& term, int frame, NormalEquations& out) {
@@ -157,9 +158,11 @@ class Cell {
         row.col(first + static_cast<Eigen::Index>(i)) = jacobians[k].col(free[i]);
     }
     normal_.noalias() += row.transpose() * row;
+    if (term.belief) believed_.noalias() += row.transpose() * row;
     const auto [score, fresh] = score_.try_emplace(frame);
     if (fresh) score->second.setZero(size_);
     score->second.noalias() -= row.transpose() * r;  // measured minus projected
+    if (term.belief) return;
     out.squared_residuals += r.squaredNorm();
     out.observations += rows;
     if (term.corner < 0) return;
@@ -180,7 +183,10 @@ class Cell {
       left.noalias() -= normal_.topRightCorner(kept_, gone) * solved;
     }
     for (Eigen::Index j = 0; j < kept_; ++j)
-      for (Eigen::Index i = 0; i < kept_; ++i) out.information(at(i), at(j)) += left(i, j);
+      for (Eigen::Index i = 0; i < kept_; ++i) {
+        out.information(at(i), at(j)) += left(i, j);
+        out.believed(at(i), at(j)) += believed_(i, j);
+      }
     Eigen::VectorXd all = Eigen::VectorXd::Zero(gone);
     for (const auto& [frame, score] : score_) {
       const Eigen::VectorXd tail = score.tail(gone);
@@ -201,9 +207,18 @@ class Cell {
   std::map<BlockId, Eigen::Index> local_;
   std::vector<Eigen::Index> global_;  // of the kept
   Eigen::Index size_ = 0, kept_ = 0;
-  Matrix normal_;
+  Matrix normal_, believed_;
   std::map<int, Eigen::VectorXd> score_;  // of each frame
 };
+
+// How many of the parameters belief determines and not the corners: the trace of N^-1 (what belief adds to
+// N).
+double known_by_belief(const NormalEquations& equations) {
+  if (equations.believed.isZero(0)) return 0;
+  const Eigen::VectorXd scale = equations.information.diagonal().cwiseSqrt().cwiseInverse();
+  const Matrix all = scale.asDiagonal() * equations.information * scale.asDiagonal();
+  return all.ldlt().solve(Matrix(scale.asDiagonal() * equations.believed * scale.asDiagonal())).trace();
+}
 
 }  // namespace
 
@@ -231,6 +246,7 @@ NormalEquations normal_equations(const BundleProblem& problem, const BundleState
   for (const Term& term : blocks.terms()) cells[elimination.cell(term)].push_back(&term);
   const auto n = static_cast<Eigen::Index>(out.names.size());
   out.information.setZero(n, n);
+  out.believed.setZero(n, n);
   out.known_score.setZero(n);
   constexpr int no_frame = -1;
   std::map<int, Eigen::VectorXd> scores;
@@ -248,6 +264,7 @@ NormalEquations normal_equations(const BundleProblem& problem, const BundleState
     else
       out.frames.push_back({frame, std::move(score)});
   }
+  out.parameters -= static_cast<int>(std::lround(known_by_belief(out)));
   return out;
 }
 

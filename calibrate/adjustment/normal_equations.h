@@ -16,6 +16,7 @@ struct NormalEquations {
   std::vector<std::string> order;  // of the rig's
   std::vector<std::string> names;  // of all that are kept
   Eigen::MatrixXd information;     // J'J, the others eliminated, for residuals in pixels
+  Eigen::MatrixXd believed;        // the part of it that is belief in a lens model's smoothness
   struct Frame {
     int frame = 0;
     Eigen::VectorXd score;  // J'r of this frame alone, the others eliminated
@@ -28,7 +29,7 @@ struct NormalEquations {
       0;  // what a Gauss-Newton step of the eliminated alone would take off the squared residuals
   int observations = 0;  // two each corner, and what is known beforehand
   int coordinates = 0;   // two each corner
-  int parameters = 0;    // all free ones
+  int parameters = 0;    // all free ones, less those that belief determines
 
   Eigen::VectorXd score() const;
   double rms_px() const;    // of the corners

@@ -6,6 +6,8 @@
 
 #include "calibrate/adjustment/bundle_adjustment.h"
 #include "calibrate/adjustment/view_pose.h"
+#include "calibrate/lenses/enrich.h"
+#include "calibrate/lenses/fisheye_start.h"
 #include "core/statistics.h"
 
 namespace bpms {
@@ -56,7 +58,7 @@ Camera first_guess(const Observations::ObservedCamera& observed, const LensChoic
   camera.name = observed.name;
   camera.width_px = observed.width_px;
   camera.height_px = observed.height_px;
-  const LensChoice& simple = lens.from.empty() ? lens : lens_choice(lens.from);
+  const LensChoice simple = lens.from.empty() ? lens : lens_choice(lens.from);
   camera.model = simple.model;
   camera.constants = simple.constants;
   camera.parameters.assign(static_cast<std::size_t>(simple.parameters), 0.0);
@@ -64,8 +66,43 @@ Camera first_guess(const Observations::ObservedCamera& observed, const LensChoic
   return camera;
 }
 
+// Where straight lines are curves in the image, of views that are flat.
+struct WideStart {
+  double focal_px = 0;
+  std::map<std::pair<int, int>, Pose> poses;
+};
+WideStart wide_start(const BundleProblem& problem, int camera, const Observations::ObservedCamera& observed) {
+  std::map<std::pair<int, int>, FlatView> views;
+  for (const CornerObservation& corner : problem.corners) {
+    if (corner.camera != camera || !corner.used) continue;
+    FlatView& view = views[{corner.frame, corner.target}];
+    view.points_m.push_back(problem.targets[static_cast<std::size_t>(corner.target)]
+                                .points_m[static_cast<std::size_t>(corner.point)]);
+    view.pixels.push_back(corner.pixel);
+  }
+  std::vector<FlatView> list;
+  for (const auto& [key, view] : views) list.push_back(view);
+  WideStart out{static_cast<double>(std::max(observed.width_px, observed.height_px)), {}};
+  const auto start = fisheye_start(list, observed.width_px, observed.height_px);
+  if (!start) return out;
+  out.focal_px = start->focal_px;
+  std::size_t i = 0;
+  for (const auto& [key, view] : views) {
+    if (start->camera_from_target[i]) out.poses[key] = *start->camera_from_target[i];
+    ++i;
+  }
+  return out;
+}
+
+WideStart narrow_start(const ViewProjections& views, double focal_px) {
+  WideStart out{focal_px, {}};
+  for (const auto& [key, view] : views) out.poses[key] = camera_from_target(view, focal_px);
+  return out;
+}
+
 // Every target in every frame for itself, each flat and exact: the joint solve knows better.
-BundleProblem alone_of(const BundleProblem& joint, int camera, const ViewProjections& views) {
+BundleProblem alone_of(const BundleProblem& joint, int camera,
+                       const std::map<std::pair<int, int>, Pose>& views) {
   BundleProblem out = joint;
   out.rig_moves = false;
   out.table_angles.clear();
@@ -91,13 +128,16 @@ SingleCamera single_camera(const BundleProblem& joint, int index,
   const ViewProjections views = view_projections(joint, index, centre);
   const bool weak = static_cast<std::size_t>(index) < joint.held.size() &&
                     !joint.held[static_cast<std::size_t>(index)].empty();
-  const double f = focal_length(views, std::max(observed.width_px, observed.height_px));
-  BundleProblem alone = alone_of(joint, index, views);
+  const WideStart start =
+      lens.model == "fisheye"
+          ? wide_start(joint, index, observed)
+          : narrow_start(views, focal_length(views, std::max(observed.width_px, observed.height_px)));
+  const double f = start.focal_px;
+  BundleProblem alone = alone_of(joint, index, start.poses);
   BundleState state =
       empty_state(alone, {first_guess(observed, weak ? lens_choice("pinhole") : lens, f, centre)});
-  for (const auto& [key, view] : views)
-    state.world_from_target[static_cast<std::size_t>(key.second)][static_cast<std::size_t>(key.first)] =
-        camera_from_target(view, f);
+  for (const auto& [key, pose] : start.poses)
+    state.world_from_target[static_cast<std::size_t>(key.second)][static_cast<std::size_t>(key.first)] = pose;
   std::erase_if(alone.corners, [&](const CornerObservation& c) { return !residual(alone, state, c); });
   SingleCamera out;
   if (!alone.corners.empty()) {
@@ -112,7 +152,7 @@ SingleCamera single_camera(const BundleProblem& joint, int index,
     out.camera_from_target[{corner.frame, corner.target}] =
         rig_from_target(alone, state, corner.target, corner.frame);
   out.camera = state.cameras[0];
-  if (!weak) out.camera.parameters.resize(static_cast<std::size_t>(lens.parameters), 0.0);
+  if (!weak) out.camera = enriched(out.camera, lens);
   return out;
 }
 

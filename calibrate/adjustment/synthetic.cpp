@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "calibrate/lenses/enrich.h"
 #include "calibrate/lenses/lens.h"
 #include "core/random.h"
 #include "core/units.h"
@@ -13,17 +14,25 @@ namespace {
 constexpr int width_px = 640, height_px = 480;
 constexpr double baseline_m = 0.083;
 
-Camera make_camera(int index, int parameters, double focal_px, Philox& random) {
+Camera make_camera(int index, const LensChoice& lens, double focal_px, Philox& random) {
   Camera camera;
   camera.name = fmt::format("camera{}", static_cast<char>('A' + index));
   camera.width_px = width_px;
   camera.height_px = height_px;
   // The lenses of a real webcam pair; the rational model needs a denominator to be determined at all.
   camera.parameters = {focal_px, focal_px + 1, 322, 241, -0.28, 0.09, 0.0008, -0.0005, 0.02};
-  if (parameters == 12)
+  if (lens.model != "brown_conrady" || lens.parameters == 12)
     camera.parameters = {focal_px, focal_px + 1, 322, 241, 0.6, 0.3, 0.0008, -0.0005, 0.1, 0.9, 0.5, 0.2};
+  if (lens.model == "fisheye")
+    camera.parameters = {focal_px, focal_px + 1, 322, 241, 0.03, -0.01, 0.004, -0.001};
   for (int i = 0; i < 4; ++i) camera.parameters[static_cast<std::size_t>(i)] += random.uniform(-5, 5);
-  camera.parameters.resize(static_cast<std::size_t>(parameters));
+  if (lens.model == "fisheye") camera.model = lens.model;
+  if (lens.model == "splined_stereographic") {
+    camera = enriched(camera, lens);  // and waves that no formula has
+    for (std::size_t i = 4; i < camera.parameters.size(); ++i)
+      camera.parameters[i] += 0.004 * std::sin(0.9 * static_cast<double>(i) + index);
+  }
+  camera.parameters.resize(static_cast<std::size_t>(lens.parameters));
   if (index > 0) {
     const Eigen::Vector3d turn(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     camera.r_cam_from_rig = rotation_from_vector(radians(1.5) * turn);
@@ -81,7 +90,7 @@ SyntheticCalibration synthetic_calibration(const SyntheticOptions& options) {
   Philox random(options.seed);
   std::vector<Camera> cameras;
   for (int c = 0; c < options.cameras; ++c)
-    cameras.push_back(make_camera(c, lens_choice(options.lens).parameters, options.focal_px, random));
+    cameras.push_back(make_camera(c, lens_choice(options.lens), options.focal_px, random));
   BundleProblem board = out.problem();
   board.frames = options.frames;
   out.truth = empty_state(board, std::move(cameras));

@@ -16,7 +16,7 @@ Eigen::VectorXd difference(const BundleProblem& problem, const BundleState& stat
   Eigen::Index at = 0;
   for (std::size_t c = 0; c < state.cameras.size(); ++c) {
     const Camera &a = state.cameras[c], &b = from.cameras[c];
-    for (const std::size_t i : problem.free_parameters(static_cast<int>(c), a.parameters.size()))
+    for (const std::size_t i : problem.free_parameters(static_cast<int>(c), a))
       out[at++] = a.parameters[i] - b.parameters[i];
     if (c == 0) continue;
     out.segment<3>(at) = vector_from_rotation(a.r_cam_from_rig * b.r_cam_from_rig.transpose());
@@ -70,8 +70,7 @@ Eigen::VectorXd baseline_gradient(const BundleProblem& problem, const std::vecto
   Eigen::VectorXd out = Eigen::VectorXd::Zero(columns);
   Eigen::Index at = 0;
   for (int c = 0; c < static_cast<int>(cameras.size()); ++c) {
-    at += static_cast<Eigen::Index>(
-        problem.free_parameters(c, cameras[static_cast<std::size_t>(c)].parameters.size()).size());
+    at += static_cast<Eigen::Index>(problem.free_parameters(c, cameras[static_cast<std::size_t>(c)]).size());
     if (c == 0) continue;
     if (c == a) {
       out.segment<3>(at) = (-direction * pose.r * cross_matrix(t_a)).transpose();

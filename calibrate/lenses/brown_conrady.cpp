@@ -9,57 +9,9 @@
 #include <cmath>
 #include <cstddef>
 
+#include "calibrate/lenses/positive_polynomial.h"
+
 namespace bpms::brown_conrady {
-namespace {
-
-constexpr std::size_t degree = 6;
-using Polynomial = std::array<double, degree + 1>;  // coefficients of s^0 ... s^6
-
-Polynomial product(const Polynomial& a, const Polynomial& b) {
-  Polynomial out{};
-  for (std::size_t i = 0; i <= degree; ++i) {
-    for (std::size_t j = 0; i + j <= degree; ++j) out[i + j] += a[i] * b[j];
-  }
-  return out;
-}
-
-// s d/ds of a polynomial.
-Polynomial scaled_derivative(Polynomial a) {
-  for (std::size_t i = 0; i <= degree; ++i) a[i] *= static_cast<double>(i);
-  return a;
-}
-
-// Bernstein coefficients on [0, 1]: the polynomial lies in their convex hull, and the two at the ends are its
-// values. Halving until all are positive (yes) or an end is not (no) decides; a double root never does, and
-// counts as no.
-bool positive(const Polynomial& bernstein, int depth) {
-  if (!(bernstein.front() > 0 && bernstein.back() > 0)) return false;
-  bool all = true;
-  for (const double b : bernstein) all = all && b > 0;
-  if (all) return true;
-  if (depth == 0) return false;
-  Polynomial left = bernstein, right = bernstein;
-  for (std::size_t step = 1; step <= degree; ++step) {  // de Casteljau at 1/2
-    for (std::size_t i = 0; i + step <= degree; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
-    left[step] = right[0];
-  }
-  return positive(left, depth - 1) && positive(right, depth - 1);
-}
-
-bool positive_up_to(Polynomial a, double s) {
-  double power = 1;
-  for (double& c : a) c *= power, power *= s;
-  constexpr double binomial[degree + 1][degree + 1] = {
-      {1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}, {1, 5, 10, 10, 5, 1}, {1, 6, 15, 20, 15, 6, 1}};
-  Polynomial bernstein{};
-  for (std::size_t i = 0; i <= degree; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) bernstein[i] += binomial[i][j] / binomial[degree][j] * a[j];
-  }
-  constexpr int halvings = 30;
-  return positive(bernstein, halvings);
-}
-
-}  // namespace
 
 bool monotone_up_to(const double* parameters, int count, double s) {
   if (count < 8) return true;
@@ -67,7 +19,7 @@ bool monotone_up_to(const double* parameters, int count, double s) {
   const Polynomial n{1, k[0], k[1], count >= 9 ? k[4] : 0};
   if (count < 12) {  // d(r n)/dr = n + 2 s n'
     Polynomial slope = scaled_derivative(n);
-    for (std::size_t i = 0; i <= degree; ++i) slope[i] = n[i] + 2 * slope[i];
+    for (std::size_t i = 0; i <= polynomial_degree; ++i) slope[i] = n[i] + 2 * slope[i];
     return positive_up_to(slope, s);
   }
   const Polynomial d{1, k[5], k[6], k[7]};
@@ -76,7 +28,7 @@ bool monotone_up_to(const double* parameters, int count, double s) {
   const Polynomial nd = product(n, d), dn = product(scaled_derivative(n), d),
                    nd1 = product(n, scaled_derivative(d));
   Polynomial slope{};
-  for (std::size_t i = 0; i <= degree; ++i) slope[i] = nd[i] + 2 * (dn[i] - nd1[i]);
+  for (std::size_t i = 0; i <= polynomial_degree; ++i) slope[i] = nd[i] + 2 * (dn[i] - nd1[i]);
   return positive_up_to(slope, s);
 }
 

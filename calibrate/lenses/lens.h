@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace bpms {
@@ -20,6 +21,14 @@ struct LensDerivatives {
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, 3> by_x_cam;
   Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameters;
+};
+
+// What is believed of the parameters before any image, +- one standard deviation: sum of coefficients times
+// parameters = value. It keeps parameters that no corner touches from being undetermined, and is weak beside
+// the corners where there are some.
+struct LensPrior {
+  std::vector<std::pair<int, double>> coefficients;  // parameter, factor
+  double value = 0, sigma = 1;
 };
 
 class Lens {
@@ -37,13 +46,20 @@ class Lens {
   // Unit vector; nullopt where no ray leads to the pixel.
   virtual std::optional<Eigen::Vector3d> unproject(const LensNumbers& lens,
                                                    const Eigen::Vector2d& pixel) const = 0;
+  // Parameters that an adjustment leaves as they are, because others can take their part.
+  virtual std::vector<int> held(const LensNumbers&) const { return {}; }
+  virtual std::vector<LensPrior> priors(const LensNumbers&) const { return {}; }
+  virtual std::string prior_words() const { return {}; }  // what they say, for reports
+  // The model must give a ray to every pixel of an image. Others are defined where there is an image (a
+  // fisheye's circle, a spline's grid), and are to be trusted only where corners were seen.
+  virtual bool covers_image() const { return true; }
 };
 
 const Lens* find_lens(std::string_view model);  // or nullptr
 std::vector<std::string> lens_models();
 
 // What a user can ask for: a model with a number of parameters. The first guess of a calibration is made with
-// `from`, a choice with fewer parameters, and the additional parameters then start at zero.
+// `from`, a simpler choice, and enriched() takes its camera over (calibrate/lenses/enrich.h).
 struct LensChoice {
   std::string name, words, model;
   int parameters = 0;
@@ -51,7 +67,7 @@ struct LensChoice {
   std::vector<double> constants = {};
 };
 const std::vector<LensChoice>& lens_choices();
-// bad_input for a name that is none.
-const LensChoice& lens_choice(const std::string& name);
+// bad_input for a name that is none. "splined:16x12" is the splined lens with that many knots.
+LensChoice lens_choice(const std::string& name);
 
 }  // namespace bpms

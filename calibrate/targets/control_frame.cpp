@@ -14,6 +14,8 @@ namespace bpms {
 namespace {
 
 constexpr double farthest_m = 1e5;
+// The standard deviation of what has none beside surveyed points: a covariance must have an inverse.
+constexpr double as_exact_m = 1e-6;
 constexpr std::size_t most_parts = 100'000;
 
 Eigen::Vector3d position(const TomlValue& table) {
@@ -86,7 +88,11 @@ class ControlFrameKind final : public TargetKind {
     if (target.tags.empty() && target.control_points.empty())
       root.reject_choice("has neither [[tags]] nor [[points]]");
     const auto surveyed = [](const Eigen::Matrix3d& c) { return !c.isZero(0); };
-    if (std::any_of(covariances.begin(), covariances.end(), surveyed)) target.covariance_m2 = covariances;
+    if (std::any_of(covariances.begin(), covariances.end(), surveyed)) {
+      for (Eigen::Matrix3d& c : covariances)
+        if (c.isZero(0)) c = std::pow(as_exact_m, 2) * Eigen::Matrix3d::Identity();
+      target.covariance_m2 = covariances;
+    }
     read_bars(root.get("scale_bars"), target);
   }
 
@@ -223,7 +229,7 @@ class ControlFrameKind final : public TargetKind {
   }
 
   static std::string covariance_toml(const Target& target, std::size_t point) {
-    if (target.covariance_m2.empty() || target.covariance_m2[point].isZero(0)) return {};
+    if (target.covariance_m2.empty()) return {};
     return fmt::format("covariance_m2 = {}\n", numbers_toml(row_major(target.covariance_m2[point])));
   }
 };

@@ -86,8 +86,12 @@ std::string Target::point_name(int point) const {
   return target_kind(kind).point_name(*this, point);
 }
 
+bool is_target_file(const std::string& text) {
+  return text.ends_with(".toml") || is_yaml(text);
+}
+
 Target parse_target(const std::string& text) {
-  if (text.ends_with(".toml") || is_yaml(text)) return read_board(text);
+  if (is_target_file(text)) return read_board(text);
   const std::string word = text.substr(0, text.find(':'));
   std::vector<std::string> words;
   for (const std::string& name : target_kind_names()) {

@@ -36,7 +36,7 @@ struct Target {
   int rows = 0;
   double square_m = 0;  // a square's side; of a board of circles their pitch
   bool stands = false;  // in one place in all frames (a control frame, a wall), or held anew in each
-  // Of each point, in the target's frame; empty: the points are exact. A zero matrix: that point is exact.
+  // Of each point, in the target's frame; empty: the points are exact.
   std::vector<Eigen::Matrix3d> covariance_m2 = {};
   std::vector<ScaleBar> scale_bars = {};
 
@@ -62,6 +62,7 @@ struct Target {
 // "chessboard:9x6:25mm" and so on, or the path of a board.toml, a control_frame.toml or a board in YAML of
 // other programs.
 Target parse_target(const std::string& text);
+bool is_target_file(const std::string& text);
 // Several at once: names are made different; bad_input where two could be taken for each other in an image.
 std::vector<Target> parse_targets(const std::vector<std::string>& texts);
 Target read_board(const std::string& path);

@@ -1,9 +1,15 @@
 // Corners, targets and photographs that no calibration comes from, and those that it goes on without.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <cstdlib>
+
+#include "calibrate/adjustment/synthetic.h"
 #include "core/json.h"
 #include "tests/apps/refused.h"
 #include "tests/command.h"
+#include "tests/data.h"
 
 namespace bpms::test {
 namespace {
@@ -126,6 +132,80 @@ TEST(CalibrateImages, GoesOnWithoutTheBadOnesAndNamesThem) {
   ASSERT_EQ(report["skipped"].size(), 4u);
   EXPECT_EQ(report["skipped"][0]["image"], "left5.png");
   EXPECT_EQ(report["views"].size(), 4u);
+}
+
+// A pair of cameras that see six frames, in place of the folder's one camera.
+void two_cameras(const SoundFolder& folder) {
+  std::string out = "# filename x y level\n";
+  for (const BoardView& view : observe(synthetic_calibration({.cameras = 2, .frames = 6}), 0.1, 1).views)
+    for (const ImageCorner& corner : view.corners)
+      out += fmt::format("{} {:.4f} {:.4f} 0\n", view.image, corner.pixel.x(), corner.pixel.y());
+  folder.write("corners.vnl", out);
+}
+
+// Each residual names its point, each camera its parameters, and a pair says how sure it places points: the
+// rig's part adds to that of the observation, and depth is worst.
+TEST(CalibrateReport, HoldsWhatTheFiguresNeed) {
+  const SoundFolder folder;
+  two_cameras(folder);
+  const Outcome run = run_bpms(folder, calibrate_corners + " --report r.json");
+  ASSERT_EQ(run.code, 0) << run.error;
+  const Json report = Json::parse(read_file(folder / "r.json"));
+  for (const Json& view : report["views"]) {
+    ASSERT_EQ(view["points"].size(), view["residuals"].size());
+    for (std::size_t i = 1; i < view["points"].size(); ++i)
+      EXPECT_LT(view["points"][i - 1].get<int>(), view["points"][i].get<int>());
+  }
+  const Json& covariance = report["covariance"];
+  ASSERT_GT(covariance["order"].size(), 0u);
+  for (std::size_t i = 0; i < covariance["order"].size(); ++i) {
+    const auto name = covariance["order"][i].get<std::string>();
+    for (const Json& camera : report["cameras"]) {
+      const std::string prefix = camera["name"].get<std::string>() + ".";
+      if (!name.starts_with(prefix)) continue;
+      const Json& sigma =
+          camera[covariance["kind"] == "iid" ? "sigma" : "sigma_clustered"][name.substr(prefix.size())];
+      // Written with all their digits.
+      EXPECT_NEAR(covariance["matrix"][i][i].get<double>(), std::pow(sigma.get<double>(), 2),
+                  1e-9 * std::pow(sigma.get<double>(), 2))
+          << name;
+    }
+  }
+  ASSERT_EQ(report["pairs"].size(), 1u);
+  ASSERT_GT(report["triangulation"].size(), 0u);
+  for (const Json& at : report["triangulation"]) {
+    for (const char* axis : {"x", "y", "z"}) {
+      const std::string name = std::string("sigma_") + axis + "_m";
+      EXPECT_GT(at["observation_" + name].get<double>(), 0);
+      EXPECT_GT(at[name].get<double>(), at["observation_" + name].get<double>());
+    }
+    EXPECT_GT(at["observation_sigma_z_m"].get<double>(), at["observation_sigma_x_m"].get<double>());
+  }
+}
+
+bool on_path(const std::string& program) {
+  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+TEST(CalibrateReport, ThePageInABrowser) {
+  if (!on_path("node") || !on_path("${CHROMIUM:-chromium}")) {
+    if (data_required()) FAIL() << "node and chromium are required";
+    GTEST_SKIP() << "needs node and chromium";
+  }
+  const SoundFolder folder;
+  two_cameras(folder);
+  const Outcome run = run_bpms(folder, calibrate_corners + " --report r.html");
+  ASSERT_EQ(run.code, 0) << run.error;
+  std::string figures;
+  for (const char* name : {"scene", "views", "frames", "quiver", "scatter", "normal", "board", "coverage",
+                           "sigma", "halves", "triangulation", "correlation"})
+    figures += std::string(" calibrate-") + name;
+  const int status =
+      std::system(fmt::format("cd '{}' && timeout 300 node '{}/workbench/scripts/check_report.mjs' r.html{} "
+                              ">out 2>&1",
+                              folder / ".", BPMS_SOURCE_DIR, figures)
+                      .c_str());
+  EXPECT_EQ(exit_code_of(status), 0) << read_file(folder / "out");
 }
 
 }  // namespace

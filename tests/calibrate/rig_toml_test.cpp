@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadRig{"pixel_centre = \"integer\"\n", "", "pixel_centre"}, BadRig{"size_px", "size", "size"},
         BadRig{"[640, 480]", "[640]", "bad.toml:5:"}, BadRig{"[640, 480]", "[0, 480]", "bad.toml:5:"},
         BadRig{"[640, 480]", "[640.5, 480]", "bad.toml:5:"},
-        BadRig{"brown_conrady", "fisheye", "bad.toml:6:"},
+        BadRig{"brown_conrady", "fisheyes", "bad.toml:6:"},
         BadRig{", -0.0002]", "]", "7 parameters; expected 4, 8, 9 or 12"},
         BadRig{"533.8,", "-533.8,", "bad.toml:7:"}, BadRig{"533.8,", "nan,", "bad.toml:7:"},
         BadRig{"533.8,", "\"533.8\",", "bad.toml:7:"},

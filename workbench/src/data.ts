@@ -1,9 +1,10 @@
 // The report document and the reports in it. Units are in the names (_m, _deg, _px, _nm); l is the normalised arc length.
-// Adding a report kind: its reader here, its section in sections/, one line in sections/index.ts.
+// Adding a report kind: its reader here or in a file of its own, its section in sections/, one line in sections/index.ts.
 
 import { common, type Provenance } from "./data_common";
 import { flag, isObject, list, number, numbers, object, optional, raw, record, rows, text, type Infer } from "./schema";
 
+export * from "./data_calibrate";
 export * from "./data_describe";
 export * from "./data_simulate";
 export type { Provenance } from "./data_common";
@@ -11,47 +12,6 @@ export type { Provenance } from "./data_common";
 // The labels that name a measured organ.
 const label = { plant: text, axis: text, rank: text, organ: text };
 export type OrganLabel = Record<keyof typeof label, string | null>;
-
-export const calibrate = object({
-  ...common,
-  cameras: rows(
-    object({
-      name: text,
-      model: text,
-      width: number,
-      height: number,
-      fx: number,
-      fy: number,
-      cx: number,
-      cy: number,
-      distortion: numbers,
-      sigma: record(number),
-      sigma_clustered: record(number),
-    }),
-  ),
-  pairs: rows(
-    object({
-      a: text,
-      b: text,
-      baseline_m: number,
-      baseline_sigma_m: number,
-      baseline_sigma_clustered_m: number,
-      rotation_deg: numbers,
-      translation_m: numbers,
-    }),
-  ),
-  residual_rms_px: number,
-  residual_sigma_px: number,
-  corners_used: number,
-  corners_total: number,
-  views: rows(
-    object({ image: text, camera: text, rms_px: number, outlier: flag, reason: text, residuals: list(numbers) }),
-  ),
-  board_warp_m: numbers,
-  converged: flag,
-  outliers: rows(object({ image: text, corner: text, residual_px: number })),
-});
-export type Calibrate = Infer<typeof calibrate>;
 
 export const reconstruct = object({
   ...common,

@@ -41,20 +41,41 @@ export interface Column<Row> {
   unit?: string;
   cell: (row: Row) => Child;
   text?: boolean; // left-aligned words instead of right-aligned figures
+  sort?: (row: Row) => number | string | null; // with it the head is a button that sorts the rows
+}
+
+// Numbers before words, what is missing last in either direction.
+export function compare(a: number | string | null, b: number | string | null, down: boolean): number {
+  if (a === null || b === null) return a === b ? 0 : a === null ? 1 : -1;
+  const order = typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en", { numeric: true });
+  return down ? -order : order;
 }
 
 export function table<Row>(columns: readonly Column<Row>[], rows: readonly Row[], mark?: (row: Row) => string | null) {
-  const head = columns.map((c) =>
-    h("th", { class: c.text ? "text" : null, scope: "col" }, c.head, c.unit ? h("span", { class: "unit" }, c.unit) : null),
-  );
-  const body = rows.map((row) =>
-    h(
-      "tr",
-      { class: mark?.(row) },
-      ...columns.map((c) => h("td", { class: c.text ? "text" : null }, c.cell(row))),
-    ),
-  );
-  return h("table", {}, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...body));
+  const body = h("tbody");
+  const fillBody = (shown: readonly Row[]): void =>
+    body.replaceChildren(...shown.map((row) => h("tr", { class: mark?.(row) }, ...columns.map((c) => h("td", { class: c.text ? "text" : null }, c.cell(row))))));
+  const head = columns.map((c) => {
+    const unit = c.unit ? h("span", { class: "unit" }, c.unit) : null;
+    const cell = h("th", { class: c.text ? "text" : null, scope: "col" });
+    const { sort } = c;
+    if (!sort) cell.append(c.head, ...(unit ? [unit] : []));
+    else {
+      const button = h("button", { type: "button", class: "sort", title: "sort by this column" }, c.head, unit);
+      button.addEventListener("click", () => {
+        // Figures from the largest down first, words from a.
+        const state = cell.getAttribute("aria-sort");
+        const down = state === null ? !c.text : state === "ascending";
+        for (const other of head) other.removeAttribute("aria-sort");
+        cell.setAttribute("aria-sort", down ? "descending" : "ascending");
+        fillBody([...rows].sort((a, b) => compare(sort(a), sort(b), down)));
+      });
+      cell.append(button);
+    }
+    return cell;
+  });
+  fillBody(rows);
+  return h("table", {}, h("thead", {}, h("tr", {}, ...head)), body);
 }
 
 // Any JSON value as a tree that unfolds.

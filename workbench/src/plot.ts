@@ -14,13 +14,18 @@ interface ErrorBars {
 }
 
 export interface Trace {
-  type: "scatter" | "bar" | "heatmap";
+  type: "scatter" | "bar" | "heatmap" | "contour";
   x?: readonly Value[];
   y?: readonly Value[];
   z?: readonly (readonly (number | null)[])[]; // of a heatmap
-  colorscale?: string;
+  colorscale?: string | readonly (readonly [number, string])[];
   colorbar?: Record<string, unknown>;
   zsmooth?: "best" | "fast" | false;
+  zmin?: number;
+  zmax?: number;
+  showscale?: boolean;
+  contours?: Record<string, unknown>;
+  customdata?: readonly unknown[];
   name?: string;
   mode?: "lines" | "markers" | "lines+markers" | "text";
   text?: string | readonly string[];
@@ -95,6 +100,22 @@ export function withDefaults(layout: Record<string, unknown>): Record<string, un
 
 export function axisTitle(title: string): { text: string; font: { size: number; color: string }; standoff: number } {
   return { text: title, font: { size: 13, color: ink }, standoff: 8 };
+}
+
+export function colourBar(title: string, extra: Record<string, unknown> = {}): Record<string, unknown> {
+  return { title: { text: title, side: "right", font: { size: 13, color: ink } }, tickfont: { size: 12 }, thickness: 14, outlinewidth: 0, ...extra };
+}
+
+// 1, 2, 5 times powers of ten between two positive numbers, both included up to rounding.
+export function oneTwoFive(low: number, high: number): number[] {
+  const out: number[] = [];
+  if (!(low > 0) || !(high >= low)) return out;
+  for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e)
+    for (const lead of [1, 2, 5]) {
+      const value = Number(`${lead}e${e}`);
+      if (value >= low * 0.999 && value <= high * 1.001) out.push(value);
+    }
+  return out;
 }
 
 // A vertical dashed line with its name at the top, across one panel.

@@ -23,7 +23,7 @@ beforeEach(() => {
 const place = (): HTMLElement => document.getElementById("page") as HTMLElement;
 
 test.each([
-  ["calibrate", ["calibrate-views", "calibrate-quiver", "calibrate-scatter"]],
+  ["calibrate", ["scene", "views", "frames", "quiver", "scatter", "normal", "board", "coverage", "sigma", "halves", "models", "triangulation", "correlation"].map((f) => `calibrate-${f}`)],
   ["reconstruct", ["reconstruct-photographs", "reconstruct-check", "reconstruct-curves"]],
   ["fit", ["fit-functions", "fit-midribs"]],
   ["build", ["build-scene"]],

@@ -1,5 +1,6 @@
 // The measuring part of the sample: calibrate, reconstruct, fit.
 import { azimuth, edges, inclination, leaves, midrib, random, range, round, stemHeight, twist, width } from "./plant.mjs";
+import { calibrate as calibration } from "./calibration.mjs";
 import { pngUri } from "./png.mjs";
 
 const size = [640, 480];
@@ -10,38 +11,7 @@ const provenance = (command, inputs) => ({
   inputs: inputs.map((path, i) => ({ path, sha256: [...Array(64)].map((_, k) => ((k * 7 + i * 5 + path.length) % 16).toString(16)).join("") })),
 }); // prettier-ignore
 
-export function calibrate() {
-  const { uniform, normal } = random(7);
-  const views = ["left", "right"].flatMap((camera) =>
-    range(1, 14, 14).filter((i) => i !== 10).map((i) => {
-      const outlier = camera === "right" && i === 5;
-      const [u0, v0, s] = [60 + 200 * uniform(), 50 + 110 * uniform(), 26 + 14 * uniform()];
-      const spread = outlier ? 1.4 : 0.11 + 0.08 * uniform();
-      const residuals = range(0, 53, 54).filter((k) => k % 2 === 0).map((k) => {
-        const u = u0 + s * (k % 9) + 4 * Math.floor(k / 9);
-        const v = v0 + s * Math.floor(k / 9) + 2 * (k % 9);
-        return [round(u, 5), round(v, 5), round(spread * normal() + (outlier ? 1.1 : 0), 3), round(spread * normal(), 3)];
-      });
-      const rms = Math.sqrt(residuals.reduce((sum, r) => sum + r[2] ** 2 + r[3] ** 2, 0) / (2 * residuals.length));
-      const name = `${camera}${String(i).padStart(2, "0")}.jpg`;
-      return { image: name, camera, rms_px: round(rms, 4), outlier, ...(outlier ? { reason: "rms above 4 times the median" } : {}), residuals };
-    }),
-  ); // prettier-ignore
-  const sigma = { fx: 0.31, fy: 0.33, cx: 0.42, cy: 0.39, k1: 0.0011, k2: 0.0043, p1: 0.00009, p2: 0.00011 };
-  const clustered = Object.fromEntries(Object.entries(sigma).map(([k, s], i) => [k, round(s * (2.1 + 0.3 * (i % 3)), 3)]));
-  const camera = (name, d) => ({
-    name, model: "brown4", width: size[0], height: size[1], fx: focal + d, fy: focal + 0.2 + d, cx: 321.4 - d, cy: 238.7 + d,
-    distortion: [-0.2871, 0.0904, 0.00118, -0.00021], sigma, sigma_clustered: clustered,
-  }); // prettier-ignore
-  return {
-    report: "calibrate", cameras: [camera("left", 0), camera("right", 1.7)],
-    pairs: [{ a: "left", b: "right", baseline_m: baseline, baseline_sigma_m: 0.000031, baseline_sigma_clustered_m: 0.000108, rotation_deg: [0.412, -0.287, 0.1133], translation_m: [-0.08311, 0.00092, 0.00304] }],
-    residual_rms_px: 0.1497, residual_sigma_px: 0.1511, corners_used: 1350, corners_total: 1404, views,
-    board_warp_m: [0.00021, -0.00008], converged: true,
-    outliers: [{ image: "left03.jpg", corner: "4,2", residual_px: 1.92 }],
-    provenance: provenance("bpms calibrate --images 'left[0-9]*.jpg' 'right[0-9]*.jpg' --target chessboard:9x6:25mm -o rig.toml", ["left01.jpg", "right01.jpg"]),
-  }; // prettier-ignore
-}
+export const calibrate = () => calibration(provenance);
 
 // The plant stands 0.78 m before the left camera; camera frame x right, y down, z forward.
 const toCamera = ([x, y, z]) => [x + baseline / 2, 0.22 - z, 0.78 + y];

@@ -5,13 +5,8 @@ import type { Calibrate } from "../data";
 import { fileNames, niceBelow, significant } from "../format";
 import { colour, rejected } from "../palette";
 import { axisTitle, type Trace } from "../plot";
-import { panelGrid } from "./panels";
+import { cameraNames, imagePanels, imageSize } from "./image_panels";
 import { quiver, quiverScale, vectors, type Vector } from "./quiver";
-
-export function cameraNames(r: Calibrate): string[] {
-  const names = [...r.cameras.map((c) => c.name), ...r.views.map((v) => v.camera)];
-  return [...new Set(names.filter((n): n is string => n !== null))];
-}
 
 export function errorsByView(r: Calibrate, s: Section): void {
   const views = r.views.filter((v) => v.rms_px !== null);
@@ -59,33 +54,17 @@ export function quiverByCamera(r: Calibrate, s: Section): void {
   if (names.length === 0) return;
   const of = (name: string, outlier: boolean): Vector[] =>
     vectors(r.views.filter((v) => v.camera === name && (v.outlier ?? false) === outlier).flatMap((v) => v.residuals));
-  const size = (name: string): [number, number] => {
-    const c = r.cameras.find((k) => k.name === name);
-    const all = [...of(name, false), ...of(name, true)];
-    return [c?.width ?? Math.max(1, ...all.map((p) => p.u)), c?.height ?? Math.max(1, ...all.map((p) => p.v))];
-  };
-  const diagonal = Math.max(...names.map((n) => Math.hypot(...size(n))));
-  const scale = quiverScale(names.flatMap((n) => of(n, false)), diagonal);
-  const grid = panelGrid(names, { columns: 2, xTitle: "u (px)", yTitle: "v (px)", gapX: 0.07, gapY: 0.12 });
-  const aspect = Math.max(...names.map((n) => size(n)[1] / size(n)[0]));
-  const layout: Record<string, unknown> = { ...grid.layout, annotations: grid.annotations, showlegend: false };
-  names.forEach((name, i) => {
-    const p = grid.panels[i];
-    if (!p) return;
-    const [w, hgt] = size(name);
-    layout[p.xKey] = { ...(layout[p.xKey] as object), constraintoward: "left", range: [-0.5, w - 0.5], constrain: "domain", zeroline: false };
-    layout[p.yKey] = { ...(layout[p.yKey] as object), range: [hgt - 0.5, -0.5], scaleanchor: p.x, constrain: "domain", constraintoward: "top", zeroline: false };
-  });
+  const sizes = names.map((n) => imageSize(r, n));
+  const scale = quiverScale(names.flatMap((n) => of(n, false)), Math.max(...sizes.map(([w, hgt]) => Math.hypot(w, hgt))));
+  const { panels, layout, height } = imagePanels(names, sizes);
   const data = names.flatMap((name, i) => {
-    const p = grid.panels[i];
+    const p = panels[i];
     const at = { xaxis: p?.x ?? "x", yaxis: p?.y ?? "y" };
     return [...quiver(of(name, true), scale, rejected, { ...at, opacity: 0.35 }), ...quiver(of(name, false), scale, colour(i + 2), at)];
   });
-  const columns = Math.min(2, names.length);
-  const height = Math.min(640, (columns > 1 ? 455 : 975) * aspect) * grid.rows + 84;
   s.plot(
     "quiver",
-    { height: Math.round(height), data, layout },
+    { height, data, layout },
     `Residual vectors over the image of each camera, drawn ${significant(scale, 3)} times their length: a line of ${significant(scale, 3)} px stands for 1\u00a0px. ` +
       "Dots are the corners; red ones belong to views left out. A sound lens model leaves no pattern.",
   );

@@ -3,13 +3,14 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { h } from "../dom";
-import { colourMesh, curveObject, dotObject, ground, meshObject, partOf } from "./scene3d_content";
+import { colourMesh, curveObject, dotObject, ground, meshObject, partOf, textSprite } from "./scene3d_content";
 import type { CurveSpec, MeshSpec, Part, Point3 } from "./scene3d_content";
 
 export interface SceneSpec {
   mesh?: MeshSpec;
   curves?: CurveSpec[];
   dots?: { points: Point3[]; colour: string; size: number }[];
+  labels?: { text: string; at: Point3 }[];
   colourings?: string[]; // names of the colourings of the mesh's parts
   up?: Point3;
   viewFrom?: Point3; // direction from the scene to the viewer, in the data's frame
@@ -61,7 +62,12 @@ class Scene3d {
     for (const d of spec.dots ?? []) if (d.points.length > 0) this.content.add(dotObject(d.points, d.colour, d.size));
     this.scene.add(this.content);
     this.content.updateMatrixWorld(true);
-    this.box.setFromObject(this.content);
+    this.box.setFromObject(this.content); // before the labels, whose size is one on the screen
+    for (const l of spec.labels ?? []) {
+      const sprite = textSprite(l.text);
+      sprite.position.set(...l.at);
+      this.content.add(sprite);
+    }
     const floor = ground(this.box);
     this.scene.add(floor.object);
     const points = [...samplePoints(spec)].map((p) => p.applyQuaternion(this.content.quaternion));
@@ -146,7 +152,7 @@ class Scene3d {
     const caster = new THREE.Raycaster();
     caster.params.Line2 = { threshold: 6 };
     caster.setFromCamera(new THREE.Vector2((2 * x) / frame.width - 1, 1 - (2 * y) / frame.height), this.camera);
-    const hit = caster.intersectObjects(this.content.children.filter((o) => !(o instanceof THREE.Points)), false)[0];
+    const hit = caster.intersectObjects(this.content.children.filter((o) => !(o instanceof THREE.Points || o instanceof THREE.Sprite)), false)[0];
     const part = hit && typeof hit.faceIndex === "number" ? partOf(hit.object, hit.faceIndex) : null;
     const label = part?.label ?? (hit?.object.userData as { label?: string } | undefined)?.label ?? null;
     this.light(part);

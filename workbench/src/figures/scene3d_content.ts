@@ -20,6 +20,7 @@ export interface MeshSpec {
   indices: readonly (number | null)[];
   partIds: readonly (number | null)[]; // of each triangle
   parts: readonly Part[];
+  opacity?: number; // below 1 the mesh casts no shadow
 }
 
 export interface CurveSpec {
@@ -50,9 +51,11 @@ export function meshObject(spec: MeshSpec): THREE.Mesh | null {
   shared.computeVertexNormals();
   const geometry = shared.toNonIndexed();
   geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(indices.length * 3), 3));
-  const material = new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide });
+  const opacity = spec.opacity ?? 1;
+  const clear = opacity < 1 ? { transparent: true, opacity, depthWrite: false } : {};
+  const material = new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide, ...clear });
   const mesh = new THREE.Mesh(geometry, material);
-  mesh.castShadow = true;
+  mesh.castShadow = opacity === 1;
   const parts = new Map(spec.parts.map((p) => [p.id, p]));
   mesh.userData = { parts: kept.map((t) => parts.get(spec.partIds[t] ?? -1) ?? null) };
   return mesh;
@@ -113,7 +116,7 @@ export function dotObject(points: readonly Point3[], colour: string, size: numbe
 }
 
 // A label of one size on the screen, hanging from its position.
-function textSprite(text: string): THREE.Sprite {
+export function textSprite(text: string): THREE.Sprite {
   const canvas = document.createElement("canvas");
   canvas.width = 512;
   canvas.height = 128;

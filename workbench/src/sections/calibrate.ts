@@ -1,95 +1,17 @@
 // Cameras from photographs of a target: parameters, residuals, stereo pairs.
 
-import type { Section } from "../book";
-import { calibrate as read, type Calibrate } from "../data";
+import { calibrate as read } from "../data";
+import { boardResiduals } from "../figures/board_residuals";
 import { errorsByView, quiverByCamera, residualScatter } from "../figures/calibration";
-import { count, fixed, length, missing, percent, plural, significant, withSigma } from "../format";
+import { calibrationScene } from "../figures/calibration_scene";
+import { correlationMatrix } from "../figures/correlation";
+import { coverage } from "../figures/coverage";
+import { halfSetDifference, modelDifference, projectionSigma } from "../figures/image_maps";
+import { errorsByFrame, normalCurve } from "../figures/residual_statistics";
+import { triangulationCurves } from "../figures/triangulation";
+import { count, length, percent, plural, significant } from "../format";
+import { bestSigma, lensTable, pairTable, parameterTable, targetTables, viewTables } from "./calibrate_tables";
 import { defineSection } from "./section";
-
-type Camera = Calibrate["cameras"][number];
-
-const distortionNames = ["k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"];
-const fisheyeNames = ["k1", "k2", "k3", "k4"];
-
-function parameters(c: Camera): { name: string; value: number | null; unit: string }[] {
-  const names = c.model?.includes("fisheye") ? fisheyeNames : distortionNames;
-  return [
-    { name: "fx", value: c.fx, unit: "px" },
-    { name: "fy", value: c.fy, unit: "px" },
-    { name: "cx", value: c.cx, unit: "px" },
-    { name: "cy", value: c.cy, unit: "px" },
-    ...c.distortion.map((value, i) => ({ name: names[i] ?? `d${i + 1}`, value, unit: "" })),
-  ].filter((p) => p.value !== null);
-}
-
-function sigmaOf(c: Camera, name: string): number | null {
-  return c.sigma_clustered[name] ?? c.sigma[name] ?? null;
-}
-
-function bestSigma(p: Calibrate["pairs"][number]): number | null {
-  return p.baseline_sigma_clustered_m ?? p.baseline_sigma_m;
-}
-
-function parameterTable(r: Calibrate, s: Section): void {
-  const rows = r.cameras.flatMap((c) => parameters(c).map((p) => ({ c, ...p })));
-  s.table(
-    [
-      { head: "camera", text: true, cell: (p) => p.c.name },
-      { head: "parameter", text: true, cell: (p) => p.name },
-      { head: "value ± σ", unit: "px for f and c", cell: (p) => withSigma(p.value, sigmaOf(p.c, p.name), p.unit) },
-      { head: "σ iid", cell: (p) => significant(p.c.sigma[p.name] ?? null, 2) },
-      { head: "σ clustered", cell: (p) => significant(p.c.sigma_clustered[p.name] ?? null, 2) },
-      {
-        head: "ratio",
-        cell: (p) => {
-          const iid = p.c.sigma[p.name];
-          const clustered = p.c.sigma_clustered[p.name];
-          return iid && clustered ? significant(clustered / iid, 2) : missing;
-        },
-      },
-    ],
-    rows,
-    "Parameters of each camera. The iid σ takes every corner as independent; the clustered one lets the corners of a view err together and is the one to use.",
-  );
-}
-
-function pairTable(r: Calibrate, s: Section): void {
-  const vector = (v: readonly (number | null)[], scale: number, decimals: number): string =>
-    v.length === 0 ? missing : v.map((x) => fixed(x === null ? null : x * scale, decimals)).join(", ");
-  s.table(
-    [
-      { head: "pair", text: true, cell: (p) => `${p.a ?? "?"} – ${p.b ?? "?"}` },
-      { head: "baseline", cell: (p) => length(p.baseline_m, bestSigma(p)) },
-      { head: "rotation vector", unit: "°", cell: (p) => vector(p.rotation_deg, 1, 4) },
-      { head: "translation", unit: "mm", cell: (p) => vector(p.translation_m, 1000, 2) },
-    ],
-    r.pairs,
-    "Stereo pairs: pose of the second camera as seen from the first.",
-  );
-}
-
-function viewTables(r: Calibrate, s: Section): void {
-  const left = r.views.filter((v) => v.outlier);
-  s.table(
-    [
-      { head: "view left out", text: true, cell: (v) => v.image },
-      { head: "camera", text: true, cell: (v) => v.camera },
-      { head: "rms", unit: "px", cell: (v) => significant(v.rms_px, 3) },
-      { head: "reason", text: true, cell: (v) => v.reason ?? missing },
-    ],
-    left,
-    "Views that the robust pass left out of the final solution.",
-  );
-  s.table(
-    [
-      { head: "image", text: true, cell: (o) => o.image },
-      { head: "corner", text: true, cell: (o) => o.corner },
-      { head: "residual", unit: "px", cell: (o) => significant(o.residual_px, 3) },
-    ],
-    r.outliers,
-    "Single corners left out.",
-  );
-}
 
 export const calibrate = defineSection({
   kind: "calibrate",
@@ -124,9 +46,29 @@ export const calibrate = defineSection({
     ]);
     parameterTable(r, s);
     pairTable(r, s);
+    lensTable(r, s);
+    targetTables(r, s);
+    calibrationScene(r, s);
+    if (r.turntable)
+      s.paragraph(
+        `The axis of the turntable is known to ${significant(1000 * (r.turntable.direction_sigma_clustered_rad ?? NaN), 2)} mrad in direction ` +
+          `and ${length(r.turntable.point_sigma_clustered_m, null, 2)} across it (σ by frame).`,
+      );
+    s.heading("Residuals");
     errorsByView(r, s);
+    errorsByFrame(r, s);
     quiverByCamera(r, s);
     residualScatter(r, s);
+    normalCurve(r, s);
+    boardResiduals(r, s);
+    s.heading("Coverage and uncertainty");
+    coverage(r, s);
+    projectionSigma(r, s);
+    halfSetDifference(r, s);
+    modelDifference(r, s);
+    triangulationCurves(r, s);
+    correlationMatrix(r, s);
+    s.heading("Views");
     viewTables(r, s);
   },
 });
