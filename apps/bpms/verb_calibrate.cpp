@@ -107,7 +107,8 @@ void identify_cameras(const Observations& observations, const std::vector<std::s
 void run_check(const Cli& cli, const CalibrateArguments& options) {
   CheckRigArguments check = options.check;
   check.images.insert(check.images.end(), options.images.begin(), options.images.end());
-  if (options.targets.size() > 1) bad_input({}, "--check takes one --target; {} are given", options.targets.size());
+  if (options.targets.size() > 1)
+    bad_input({}, "--check takes one --target; {} are given", options.targets.size());
   check.target = options.targets.front();
   check.no_warp = options.no_warp;
   if (!options.corners.empty() || !options.identity.empty() || !cli.common.output.empty())
