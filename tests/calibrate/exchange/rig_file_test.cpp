@@ -236,6 +236,25 @@ TEST(RigFile, MrcalOpensAndProjects) {
   expect_mrcal_agrees(rig, paths);
 }
 
+TEST(RigFile, MrcalProjectsSplines) {
+  BPMS_NEED_PYTHON("mrcal", "python3-mrcal");
+  const test::TemporaryFolder folder;
+  Philox random(9);
+  Rig rig = random_rig({8, 8});
+  for (std::size_t c = 0; c < 2; ++c) {
+    Camera& camera = rig.cameras[c];
+    camera.model = "splined_stereographic";
+    camera.constants = {c == 0 ? 3. : 2., 10, 8, 90};
+    camera.parameters.resize(4);
+    for (int i = 0; i < 2 * 10 * 8; ++i) camera.parameters.push_back(random.uniform(-0.01, 0.01));
+  }
+  EXPECT_LT(test::projected_apart(rig, there_and_back(rig, "m/", "mrcal")), same_px);
+  write_rig_file(rig, folder / "m/", "mrcal");
+  expect_mrcal_agrees(rig, {folder / "m/cameraA.cameramodel", folder / "m/cameraB.cameramodel"});
+  rig.cameras[0].constants[3] = 90.5;
+  BPMS_EXPECT_ERROR(rig_files(rig, "m/", "mrcal"), ErrorKind::bad_input, "whole degrees");
+}
+
 TEST(RigFile, MrcalsOwnModelsProjectTheSame) {
   BPMS_NEED_DATA("calib_ref/mrcal_sub5_opencv4_left.cameramodel");
   BPMS_NEED_PYTHON("mrcal", "python3-mrcal");
