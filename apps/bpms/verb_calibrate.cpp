@@ -10,6 +10,7 @@
 #include "calibrate/images/find_corners.h"
 #include "calibrate/images/image_identity.h"
 #include "calibrate/lens_selection.h"
+#include "calibrate/lenses/lens.h"
 #include "calibrate/targets/target_kind.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -114,6 +115,7 @@ void run(const Cli& cli, const CalibrateArguments& options) {
   const std::vector<Target> targets = parse_targets(options.targets);
   CalibrateOptions settings;
   settings.lens = options.model;
+  if (options.model != "auto") lens_choice(options.model);  // known, before the work
   settings.board_warp = !options.no_warp;
   settings.rig_moves = options.moving_rig;
   settings.free_points = options.free_points;
