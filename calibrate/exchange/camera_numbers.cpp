@@ -33,7 +33,7 @@ void require_sound_size(const Camera& camera, const SourceLocation& where) {
 Eigen::Matrix3d sound_rotation(const Eigen::Matrix3d& r, const SourceLocation& where) {
   constexpr double digits = 1e-4;  // some tools print six digits, others read them as floats
   const double off = (r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(off < digits))
+  if (!r.allFinite() || !(off < digits))
     bad_input(where, "the matrix is no rotation: its rows are off orthonormal by {:.3g}", off);
   if (r.determinant() < 0) bad_input(where, "the matrix is a reflection (determinant -1), not a rotation");
   return orthonormalised(r);

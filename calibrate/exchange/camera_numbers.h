@@ -17,6 +17,11 @@ void require_sound_size(const Camera& camera, const SourceLocation& where);
 Eigen::Matrix3d sound_rotation(const Eigen::Matrix3d& r, const SourceLocation& where);
 // Of a quaternion w x y z (Hamilton), which files hold rounded.
 Eigen::Matrix3d sound_rotation(const Eigen::Vector4d& wxyz, const SourceLocation& where);
+// No coordinate is NaN, infinite or beyond largest_camera_number.
+template <class Vector>
+bool is_sound_vector(const Vector& x) {
+  return x.allFinite() && x.cwiseAbs().maxCoeff() <= largest_camera_number;
+}
 // w >= 0.
 Eigen::Vector4d quaternion_wxyz(const Eigen::Matrix3d& r);
 

@@ -20,7 +20,7 @@ void number_colmap_part(ColmapIndex<Id>& index, Id id, const char* what, const S
 }
 
 void require_sound_point(const ColmapPoint& point, const SourceLocation& where) {
-  if (!(point.x_world.cwiseAbs().maxCoeff() <= largest_camera_number) || !std::isfinite(point.error_px))
+  if (!is_sound_vector(point.x_world) || !std::isfinite(point.error_px))
     bad_input(where, "point {} has coordinates or an error that are no finite numbers below 1e12", point.id);
 }
 
@@ -51,10 +51,10 @@ ColmapModel join_colmap(ColmapParts parts) {
       bad_input(part.where, "image {} is of camera {}, which is not there", in_quotes(image.name),
                 part.camera_id);
     image.camera = camera->second;
-    if (!(image.cam_from_world.t_m.cwiseAbs().maxCoeff() <= largest_camera_number))
+    if (!is_sound_vector(image.cam_from_world.t_m))
       bad_input(part.where, "the translation of image {} is no finite vector", in_quotes(image.name));
     for (std::size_t i = 0; i < part.point_ids.size(); ++i) {
-      if (!(image.keypoints_px[i].cwiseAbs().maxCoeff() <= largest_camera_number))
+      if (!is_sound_vector(image.keypoints_px[i]))
         bad_input(part.where, "keypoint {} of image {} is no finite pixel", i, in_quotes(image.name));
       int point = -1;
       if (part.point_ids[i] != no_colmap_point) {

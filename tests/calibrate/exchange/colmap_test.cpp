@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 #include "calibrate/exchange/colmap_camera.h"
 #include "calibrate/exchange/colmap_model.h"
@@ -171,6 +172,26 @@ TEST(Colmap, BinaryCutAnywhereIsRefused) {
     ColmapFiles longer = whole;
     (longer.*part) += '\0';
     BPMS_EXPECT_ERROR(parse_colmap_binary(longer), ErrorKind::bad_input, "left over");
+  }
+}
+
+// Whichever coordinate it is: a maximum over a vector may pass over it.
+TEST(Colmap, BinaryNumbersThatAreNoneAreRefused) {
+  const auto spoilt = [](std::string ColmapFiles::*part, std::size_t at) {
+    ColmapFiles files = binary_files();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    std::memcpy((files.*part).data() + at, &nan, sizeof nan);
+    return files;
+  };
+  for (std::size_t i = 0; i < 3; ++i)
+    BPMS_EXPECT_ERROR(parse_colmap_binary(spoilt(&ColmapFiles::points, 16 + 8 * i)), ErrorKind::bad_input,
+                      "point 7");
+  for (std::size_t i = 0; i < 3; ++i)
+    BPMS_EXPECT_ERROR(parse_colmap_binary(spoilt(&ColmapFiles::images, 44 + 8 * i)), ErrorKind::bad_input,
+                      "translation");
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_THROW(parse_colmap_binary(spoilt(&ColmapFiles::images, 12 + 8 * i)), Error);
+    EXPECT_THROW(parse_colmap_binary(spoilt(&ColmapFiles::cameras, 32 + 8 * i)), Error);
   }
 }
 
