@@ -68,7 +68,7 @@ LensChoice lens_choice(const std::string& name) {
     out.constants = {3, static_cast<double>(*columns), static_cast<double>(*rows), 0};
     return out;
   }
-  bad_input({}, "no lens model {} (--model); expected {}{}", in_quotes(name), fmt::join(names, ", "),
+  bad_input({}, "--model {}: no such lens; expected {}{}", in_quotes(name), fmt::join(names, ", "),
             did_you_mean(name, names));
 }
 

@@ -110,7 +110,8 @@ class AprilTagBoardKind final : public TargetKind {
  private:
   static Eigen::Vector3d upper_left(const Target& target, int tag) {
     const double pitch = target.mark_m + target.gap_m;
-    return {tag % target.columns * pitch, tag / target.columns * pitch, 0};
+    const int row = tag / target.columns;
+    return {tag % target.columns * pitch, row * pitch, 0};
   }
 };
 

@@ -76,7 +76,7 @@ TargetTag ros_tag(const SmallYaml& entry) {
 }
 
 Target ros_bundle(const SmallYaml& bundles) {
-  if (bundles.items.size() != 1)
+  if (bundles.kind != SmallYaml::Kind::list || bundles.items.size() != 1)
     bundles.reject(fmt::format("has {} bundles, expected one", bundles.items.size()));
   const SmallYaml& bundle = bundles.items.front();
   Target out;
@@ -85,6 +85,7 @@ Target ros_bundle(const SmallYaml& bundles) {
   if (bundle.kind == SmallYaml::Kind::map && bundle.find("name")) out.name = bundle.find("name")->word;
   std::set<int> ids;
   const SmallYaml& layout = bundle.require("layout");
+  if (layout.kind != SmallYaml::Kind::list) layout.reject("expected a list of tags");
   for (const SmallYaml& entry : layout.items) {
     out.tags.push_back(ros_tag(entry));
     if (!ids.insert(out.tags.back().id).second)

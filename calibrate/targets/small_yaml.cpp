@@ -88,7 +88,8 @@ class YamlReader {
     expect(':');
     skip_blank();
     if (map.find(key.word)) bad_input(key.where, "{} is there twice", in_quotes(key.word));
-    map.entries.emplace_back(key.word, value(ends, depth));
+    map.keys.push_back(key.word);
+    map.items.push_back(value(ends, depth));
   }
 
   SmallYaml value(std::string_view ends, int depth) {
@@ -135,8 +136,8 @@ SmallYaml SmallYaml::parse(const std::string& path, std::string_view text) {
 }
 
 const SmallYaml* SmallYaml::find(std::string_view key) const {
-  for (const auto& [name, value] : entries) {
-    if (name == key) return &value;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (keys[i] == key) return &items[i];
   }
   return nullptr;
 }

@@ -3,7 +3,6 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -17,8 +16,8 @@ class SmallYaml {
 
   Kind kind = Kind::word;
   std::string word;
-  std::vector<SmallYaml> items;                            // of a list
-  std::vector<std::pair<std::string, SmallYaml>> entries;  // of a map
+  std::vector<std::string> keys;  // of a map
+  std::vector<SmallYaml> items;   // of a list; of a map: the values in the order of the keys
   SourceLocation where;
 
   const SmallYaml* find(std::string_view key) const;  // of a map; nullptr when absent
