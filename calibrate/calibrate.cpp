@@ -54,16 +54,6 @@ void require_sound_lenses(const Observations& observations, const std::vector<Ca
   }
 }
 
-// Odd and even frame numbers; first, third, ... against the others where the numbers leave a half too small.
-std::vector<bool> odd_frames(const std::vector<std::string>& frames) {
-  std::vector<bool> odd;
-  for (const std::string& name : frames) odd.push_back(parse_integer(name).value_or(0) % 2 != 0);
-  const auto count = std::count(odd.begin(), odd.end(), true), all = static_cast<std::ptrdiff_t>(odd.size());
-  if (std::min(count, all - count) >= all / 3) return odd;
-  for (std::size_t i = 0; i < odd.size(); ++i) odd[i] = i % 2 == 0;
-  return odd;
-}
-
 struct Half {
   std::vector<Camera> cameras;
   std::optional<TurntableAxis> axis;
@@ -83,9 +73,9 @@ Half half_set(const BundleProblem& problem, const BundleState& solution, const s
 }
 
 void add_half_sets(const BundleProblem& problem, const BundleState& state,
-                   const std::vector<std::string>& frames, const std::vector<double>& ranges_m,
-                   Calibration& out) {
-  std::vector<bool> keep = odd_frames(frames);
+                   const std::vector<double>& ranges_m, Calibration& out) {
+  std::vector<bool> keep;
+  for (int f = 0; f < problem.frames; ++f) keep.push_back(f % 2 == 0);
   try {
     const Half odd = half_set(problem, state, keep);
     keep.flip();
@@ -228,7 +218,7 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
       for_maps = {equations.order, clustered.covariance, "clustered"};
       for (std::size_t i = 0; i < pairs.size(); ++i)
         out.pairs[i].baseline_sigma_clustered_m = clustered.baseline_sigma_m[i];
-      add_half_sets(problem, state, frames, ranges_m, out);
+      add_half_sets(problem, state, ranges_m, out);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numeric) throw;
       out.clustered_absent = error.message();

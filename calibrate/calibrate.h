@@ -92,7 +92,7 @@ struct Calibration {
   };
   std::vector<Pair> pairs;
 
-  struct HalfSets {  // frames with odd and even numbers
+  struct HalfSets {  // the first, third, ... frame (odd) and the others (even)
     double odd_baseline_m = 0, even_baseline_m = 0, sigma_clustered_m = 0;  // of the first pair, or zeros
     std::vector<ProjectionMap> difference;                                  // of each camera
   };
@@ -104,7 +104,7 @@ struct Calibration {
     // The larger standard deviations, iid and by frame: of the direction, of the point across the axis.
     double direction_sigma_rad = 0, point_sigma_m = 0, direction_sigma_clustered_rad = 0,
            point_sigma_clustered_m = 0;
-    // Between frames with odd and even numbers; absent where halves have too few frames.
+    // Between the first, third, ... frame and the others; absent where halves have too few frames.
     std::optional<double> halves_angle_rad, halves_distance_m;
   };
   std::optional<Turntable> turntable;

@@ -9,6 +9,7 @@
 
 #include "calibrate/lenses/fisheye_start.h"
 #include "calibrate/lenses/lens.h"
+#include "calibrate/network_problem.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -25,15 +26,6 @@ struct SeenCorner {
 
 // Which corners no model wants.
 using CornerNames = std::set<std::pair<std::string, int>>;
-
-std::vector<std::string> frames_in_order(const Observations& observations) {
-  std::set<std::pair<long long, std::string>> sorted;
-  for (const BoardView& view : observations.views)
-    sorted.emplace(parse_integer(view.frame).value_or(0), view.frame);
-  std::vector<std::string> out;
-  for (const auto& [number, name] : sorted) out.push_back(name);
-  return out;
-}
 
 // As bent, or as placed, as the solve without the frame found them.
 std::vector<std::vector<Eigen::Vector3d>> solved_points(const std::vector<Target>& targets,
@@ -267,7 +259,7 @@ void judge(const std::vector<Candidate>& candidates, LensSelection& out) {
 
 LensSelection choose_lens(const Observations& observations, const std::vector<Target>& targets,
                           const LensSelectionOptions& options) {
-  const std::vector<std::string> frames = frames_in_order(observations);
+  const std::vector<std::string> frames = frame_names(observations);
   constexpr std::size_t fewest_frames = 4;
   if (frames.size() < fewest_frames)
     bad_input({}, "{} frames cannot choose a lens model, at least {} are needed: name one with --model",

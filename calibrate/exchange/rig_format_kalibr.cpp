@@ -6,7 +6,7 @@
 
 #include "calibrate/exchange/camera_numbers.h"
 #include "calibrate/exchange/rig_file.h"
-#include "calibrate/exchange/yaml.h"
+#include "calibrate/yaml.h"
 #include "core/text.h"
 
 namespace bpms {

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <set>
 
-#include "calibrate/targets/small_yaml.h"
 #include "calibrate/targets/tag_detector.h"
 #include "calibrate/targets/target_kind.h"
+#include "calibrate/yaml.h"
 #include "core/nearest.h"
 
 namespace bpms {
@@ -13,19 +13,19 @@ namespace {
 
 constexpr double largest_m = 100;
 
-double length_of(const SmallYaml& value) {
+double length_of(const YamlValue& value) {
   const double out = value.number();
   if (!(out > 0) || out > largest_m) value.reject("expected a length in metres, above 0 and at most 100");
   return out;
 }
 
-int count_of(const SmallYaml& value) {
+int count_of(const YamlValue& value) {
   constexpr int fewest = 3, most = 200;
   return static_cast<int>(value.integer(fewest, most));
 }
 
 // Squares of another width than height are told by measured points.
-Target kalibr_checkerboard(const SmallYaml& root) {
+Target kalibr_checkerboard(const YamlValue& root) {
   Target out;
   out.columns = count_of(root.require("targetCols"));
   out.rows = count_of(root.require("targetRows"));
@@ -39,11 +39,11 @@ Target kalibr_checkerboard(const SmallYaml& root) {
   return out;
 }
 
-Target kalibr_circlegrid(const SmallYaml& root) {
+Target kalibr_circlegrid(const YamlValue& root) {
   Target out;
-  const SmallYaml* asymmetric = root.find("asymmetricGrid");
-  const bool shifted =
-      asymmetric && (asymmetric->word == "1" || asymmetric->word == "True" || asymmetric->word == "true");
+  const YamlValue asymmetric = root.get("asymmetricGrid");
+  const std::string word = asymmetric ? asymmetric.string() : "";
+  const bool shifted = word == "1" || word == "True" || word == "true";
   out.kind = shifted ? "asymmetric_circles" : "circles";
   out.columns = count_of(root.require("targetCols"));
   out.rows = count_of(root.require("targetRows"));
@@ -51,19 +51,19 @@ Target kalibr_circlegrid(const SmallYaml& root) {
   // Kalibr does not say how wide the circles are; only the correction for perspective needs it.
   constexpr double usual_of_pitch = 0.5;
   out.mark_m = usual_of_pitch * out.square_m;
-  if (const SmallYaml* diameter = root.find("diameterMeters")) out.mark_m = length_of(*diameter);
+  if (const YamlValue diameter = root.get("diameterMeters")) out.mark_m = length_of(diameter);
   if (const std::string trouble = target_kind(out.kind).nonsense(out); !trouble.empty()) root.reject(trouble);
   return out;
 }
 
 // There y of a tag points up and z out of it; here y points down and z into the surface.
-TargetTag ros_tag(const SmallYaml& entry) {
+TargetTag ros_tag(const YamlValue& entry) {
   TargetTag out;
   out.id = static_cast<int>(entry.require("id").integer(0, tag_codes - 1));
   out.size_m = length_of(entry.require("size"));
   const auto number_or = [&](const char* key, double otherwise) {
-    const SmallYaml* value = entry.find(key);
-    return value ? value->number() : otherwise;
+    const YamlValue value = entry.get(key);
+    return value ? value.number() : otherwise;
   };
   out.centre_m = {number_or("x", 0), number_or("y", 0), number_or("z", 0)};
   const Eigen::Quaterniond q(number_or("qw", 1), number_or("qx", 0), number_or("qy", 0), number_or("qz", 0));
@@ -75,18 +75,19 @@ TargetTag ros_tag(const SmallYaml& entry) {
   return out;
 }
 
-Target ros_bundle(const SmallYaml& bundles) {
-  if (bundles.kind != SmallYaml::Kind::list || bundles.items.size() != 1)
-    bundles.reject(fmt::format("has {} bundles, expected one", bundles.items.size()));
-  const SmallYaml& bundle = bundles.items.front();
+Target ros_bundle(const YamlValue& bundles) {
+  if (!bundles.is_list() || bundles.size() != 1)
+    bundles.reject(fmt::format("has {} bundles, expected one", bundles.is_list() ? bundles.size() : 0));
+  const YamlValue bundle = bundles[0];
   Target out;
   out.kind = "control_frame";
   out.stands = true;
-  if (bundle.kind == SmallYaml::Kind::map && bundle.find("name")) out.name = bundle.find("name")->word;
+  if (const YamlValue name = bundle.get("name")) out.name = name.string();
   std::set<int> ids;
-  const SmallYaml& layout = bundle.require("layout");
-  if (layout.kind != SmallYaml::Kind::list) layout.reject("expected a list of tags");
-  for (const SmallYaml& entry : layout.items) {
+  const YamlValue layout = bundle.require("layout");
+  if (!layout.is_list()) layout.reject("expected a list of tags");
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    const YamlValue entry = layout[i];
     out.tags.push_back(ros_tag(entry));
     if (!ids.insert(out.tags.back().id).second)
       entry.reject(fmt::format("tag {} is there twice", out.tags.back().id));
@@ -98,21 +99,22 @@ Target ros_bundle(const SmallYaml& bundles) {
 }  // namespace
 
 Target parse_yaml_board(const std::string& path, std::string_view text) {
-  const SmallYaml root = SmallYaml::parse(path, text);
-  if (const SmallYaml* bundles = root.find("tag_bundles")) return ros_bundle(*bundles);
-  const SmallYaml* type = root.find("target_type");
+  const YamlValue root = YamlValue::parse(path, std::string(text));
+  if (const YamlValue bundles = root.get("tag_bundles")) return ros_bundle(bundles);
+  const YamlValue type = root.get("target_type");
   if (!type)
     root.reject(
         "neither target_type of a Kalibr board nor tag_bundles; expected a checkerboard, a circlegrid "
         "or tags of apriltag_ros");
-  if (type->word == "aprilgrid")
-    type->reject(
+  const std::string word = type.string();
+  if (word == "aprilgrid")
+    type.reject(
         "Kalibr's boards of tags cannot be read by AprilTag 3, their black squares break the white "
         "border of the tags; print one of bpms: bpms target apriltag:6x6:40mm:10mm -o board.pdf");
-  if (type->word == "checkerboard") return kalibr_checkerboard(root);
-  if (type->word == "circlegrid") return kalibr_circlegrid(root);
-  type->reject(fmt::format("no target_type {}{}", in_quotes(type->word),
-                           did_you_mean(type->word, {"checkerboard", "circlegrid"})));
+  if (word == "checkerboard") return kalibr_checkerboard(root);
+  if (word == "circlegrid") return kalibr_circlegrid(root);
+  type.reject(fmt::format("no target_type {}{}", in_quotes(word),
+                          did_you_mean(word, {"checkerboard", "circlegrid"})));
 }
 
 }  // namespace bpms

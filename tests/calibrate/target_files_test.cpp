@@ -163,7 +163,7 @@ TEST(YamlBoards, KalibrAndAprilTagRos) {
                                 "target_type: 'aprilgrid'\ntagCols: 6\ntagRows: 6\ntagSize: 0.088\n"
                                 "tagSpacing: 0.3\n"),
                     ErrorKind::bad_input,
-                    "k.yaml:1:14: Kalibr's boards of tags cannot be read by AprilTag 3");
+                    "k.yaml:1:14: target_type: Kalibr's boards of tags cannot be read by AprilTag 3");
 
   // The first tag is 10 cm to the right of the origin, not turned: its y is up there and down here.
   const Target bundle = parse_board(

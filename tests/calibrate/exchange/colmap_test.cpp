@@ -116,10 +116,8 @@ TEST(Colmap, ModelsBecomeLenses) {
             (std::vector<double>{5, 6, 4, 3, .1, .2, .3, .4, .5, .6, .7, .8}));
   EXPECT_EQ(read("FULL_OPENCV 8 6 5 6 4.5 3.5 .1 .2 .3 .4 .5 0 0 0"),
             (std::vector<double>{5, 6, 4, 3, .1, .2, .3, .4, .5}));
-  if (test::have_fisheye()) {
-    EXPECT_EQ(read("OPENCV_FISHEYE 8 6 5 6 4.5 3.5 .1 .2 .3 .4"),
-              (std::vector<double>{5, 6, 4, 3, .1, .2, .3, .4}));
-  }
+  EXPECT_EQ(read("OPENCV_FISHEYE 8 6 5 6 4.5 3.5 .1 .2 .3 .4"),
+            (std::vector<double>{5, 6, 4, 3, .1, .2, .3, .4}));
   for (const ColmapLens* lens : {find_colmap_lens("OPENCV"), find_colmap_lens(4)})
     EXPECT_EQ(lens, find_colmap_lens("OPENCV"));
 }

@@ -31,9 +31,6 @@ inline Camera random_fisheye(const std::string& name, Philox& random) {
   for (const double k : {0.02, -0.004, 0.0007, -0.0001}) camera.parameters.push_back(k * random.uniform());
   return camera;
 }
-inline bool have_fisheye() {
-  return find_lens("fisheye") != nullptr;
-}
 
 // The largest distance in pixels over 1000 points before the first camera, of every camera that sees them.
 inline double projected_apart(const Rig& a, const Rig& b) {

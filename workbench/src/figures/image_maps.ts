@@ -92,7 +92,7 @@ export function halfSetDifference(r: Calibrate, s: Section): void {
   const maps = (r.half_sets?.difference ?? []).map((map, i): NamedMap => ({ title: r.cameras[i]?.name ?? `camera ${i + 1}`, camera: r.cameras[i]?.name ?? null, map }));
   imageMaps(
     r, s, "halves", maps,
-    `How far the calibrations from the odd and from the even frames put the same points apart, at ${ranges(maps)}, up to a small motion of the camera. ` +
+    `How far the calibrations from the first, third, … frames and from the others put the same points apart, at ${ranges(maps)}, up to a small motion of the camera. ` +
       "Each half has √2 times the σ of all frames, and two halves differ by √2 times that: where the uncertainty is honest this is about twice the projection uncertainty.",
   ); // prettier-ignore
 }

@@ -97,7 +97,7 @@ export function pairTable(r: Calibrate, s: Section): void {
   if (!h || !h.odd_baseline_m || !h.even_baseline_m || !h.sigma_clustered_m) return;
   const ratio = Math.abs((h.difference_m ?? h.odd_baseline_m - h.even_baseline_m) / h.sigma_clustered_m);
   s.paragraph(
-    `Odd and even frames alone give a first baseline of ${length(h.odd_baseline_m, null, 5)} and ${length(h.even_baseline_m, null, 5)}: ` +
+    `The first, third, … frames and the others alone give a first baseline of ${length(h.odd_baseline_m, null, 5)} and ${length(h.even_baseline_m, null, 5)}: ` +
       `${significant(ratio, 2)} of their combined clustered σ (${length(h.sigma_clustered_m, null, 2)}) apart.`,
   );
 }

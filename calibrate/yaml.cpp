@@ -1,4 +1,4 @@
-#include "calibrate/exchange/yaml.h"
+#include "calibrate/yaml.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -96,9 +96,14 @@ YamlValue YamlValue::get(const std::string& key) const {
   out.path_ = path_;
   out.name_ = name_.empty() ? key : name_ + "." + key;
   if (!is_table()) return out;
-  for (const auto& entry : *node_)
-    if (entry.first.IsScalar() && entry.first.Scalar() == key)
-      out.node_ = std::make_shared<const YAML::Node>(entry.second);
+  for (const auto& entry : *node_) {
+    if (!entry.first.IsScalar() || entry.first.Scalar() != key) continue;
+    if (out) {
+      const YAML::Mark mark = entry.first.Mark();
+      bad_input({path_, mark.line + 1, mark.column + 1}, "{} is there twice", in_quotes(key));
+    }
+    out.node_ = std::make_shared<const YAML::Node>(entry.second);
+  }
   return out;
 }
 
