@@ -58,10 +58,7 @@ std::optional<Eigen::Matrix<double, 3, 4>> linear_projection(const std::vector<P
   moved.topLeftCorner<3, 3>() /= size;
   moved.topRightCorner<3, 1>() = -centre / size;
   p = (Eigen::Vector3d(image, image, 1).asDiagonal() * p * moved).eval();
-  // The points lie in front.
-  double depth = 0;
-  for (const PointPair& at : points) depth += p.row(2).head<3>().dot(at.on_target_m) + p(2, 3);
-  return depth < 0 ? -p : p;
+  return p;
 }
 
 }  // namespace
@@ -114,7 +111,7 @@ Pose camera_from_target(const ViewProjection& view, double focal_px) {
   if (view.flat) return pose_from_homography(normalise * view.homography) * view.plane_from_target;
   const Eigen::Matrix<double, 3, 4> p = normalise * view.projection;
   const Eigen::Matrix3d m = p.leftCols<3>();
-  const double scale = std::cbrt(m.determinant());
+  const double scale = std::cbrt(m.determinant());  // with the sign that makes it a rotation
   return {orthonormalised(m / scale), p.col(3) / scale};
 }
 

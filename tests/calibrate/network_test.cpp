@@ -51,6 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
             "SurveyedFrame",
             {.rig_moves = true, .held_boards = 0, .control_frame = true, .known = PointsKnown::surveyed}},
         NetworkCase{"Turntable", {.frames = 12, .table_step_rad = 0.12}},
+        NetworkCase{"TurntableAllTheWayRound", {.frames = 24, .table_step_rad = 0.26}},
         NetworkCase{"TurntableTheOtherWay", {.cameras = 1, .frames = 12, .table_step_rad = -0.12}},
         NetworkCase{"FreeFrameWithBars",
                     {.rig_moves = true,
@@ -81,8 +82,10 @@ TEST(Network, SetsFramesAsideThatNothingPlaces) {
   BundleProblem problem = network.problem;
   std::erase_if(problem.corners, [](const CornerObservation& c) { return c.frame == 3 && c.target == 1; });
   const test::SolvedNetwork solved = test::solve(network, problem);
-  for (const CornerObservation& corner : solved.problem.corners)
+  for (const CornerObservation& corner : solved.problem.corners) {
+    EXPECT_EQ(corner.placed, corner.frame != 3) << corner.frame;
     EXPECT_EQ(corner.used, corner.frame != 3) << corner.frame;
+  }
   EXPECT_LT(solved.equations.rms_px(), 1e-8);
 }
 

@@ -39,6 +39,16 @@ TEST(ProjectionDifference, TakesOffWhatATurnExplains) {
   EXPECT_NEAR(zoomed.px[0], 0.01 * corner, 0.002 * corner);
 }
 
+// A lens that runs wild at the image's corners does not tilt the comparison of the rest.
+TEST(ProjectionDifference, TheMiddleDecides) {
+  Camera camera = synthetic_calibration({}).truth.cameras[0], other = camera;
+  camera.parameters.resize(9), other.parameters.resize(9);
+  other.parameters[8] += 1;  // r^7: 0.09 px at 200 px from the axis, 27 px at 400 px
+  const ProjectionMap map = projection_difference(camera, other, {.range_m = 0.5});
+  EXPECT_GT(map.quantile(1), 5);
+  EXPECT_LT(map.quantile(0.25), 0.1);
+}
+
 // Lenses drawn from the covariance differ from their mean by what the map says: the squared difference over
 // the variance, averaged over draws and pixels. A Gaussian ellipse has E|d|^2 = s1^2 + s2^2, between one and
 // two times the larger variance.
