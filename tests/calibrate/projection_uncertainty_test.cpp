@@ -43,10 +43,12 @@ TEST(ProjectionDifference, TakesOffWhatATurnExplains) {
 TEST(ProjectionDifference, TheMiddleDecides) {
   Camera camera = synthetic_calibration({}).truth.cameras[0], other = camera;
   camera.parameters.resize(9), other.parameters.resize(9);
-  other.parameters[8] += 1;  // r^7: 0.09 px at 200 px from the axis, 27 px at 400 px
+  other.parameters[8] += 0.2;  // f r^7: 0.02 px at 160 px from the axis, 14 px at 400 px
   const ProjectionMap map = projection_difference(camera, other, {.range_m = 0.5});
   EXPECT_GT(map.quantile(1), 5);
-  EXPECT_LT(map.quantile(0.25), 0.1);
+  // A quarter of the image lies within 160 px. Part of the middle range is traded in; a plain least squares
+  // fit would spread 1.6 px there.
+  EXPECT_LT(map.quantile(0.25), 0.4);
 }
 
 // Lenses drawn from the covariance differ from their mean by what the map says: the squared difference over
