@@ -73,7 +73,7 @@ Half half_set(const BundleProblem& problem, const BundleState& solution, const s
 }
 
 void add_half_sets(const BundleProblem& problem, const BundleState& state,
-                   const std::vector<double>& ranges_m, Calibration& out) {
+                   const std::vector<MapOptions>& maps, Calibration& out) {
   std::vector<bool> keep;
   for (int f = 0; f < problem.frames; ++f) keep.push_back(f % 2 == 0);
   try {
@@ -87,8 +87,7 @@ void add_half_sets(const BundleProblem& problem, const BundleState& state,
       result.sigma_clustered_m = std::hypot(odd.baseline_sigma_m[0], even.baseline_sigma_m[0]);
     }
     for (std::size_t c = 0; c < state.cameras.size(); ++c)
-      result.difference.push_back(
-          projection_difference(odd.cameras[c], even.cameras[c], {.range_m = ranges_m[c]}));
+      result.difference.push_back(projection_difference(odd.cameras[c], even.cameras[c], maps[c]));
     if (odd.axis) {
       out.turntable->halves_angle_rad = odd.axis->direction.cross(even.axis->direction).norm();
       out.turntable->halves_distance_m = (odd.axis->point_m - even.axis->point_m).norm();
@@ -194,7 +193,9 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
   describe_views(observations, problem, state, search, out);
   out.sigma_iid = sigma_iid;
   if (problem.turntable()) out.turntable = describe_turntable(state, equations, inverse);
-  const std::vector<double> ranges_m = usual_ranges(problem, state);
+  std::vector<MapOptions> maps;
+  for (const double range_m : usual_ranges(problem, state))
+    maps.push_back({.range_m = range_m, .region = valid_region(observations, static_cast<int>(maps.size()))});
   const std::vector<CameraPair> pairs = all_pairs(state.cameras.size());
   for (const CameraPair& pair : pairs) {
     const Pose pose = relative_pose(state.cameras, pair.a, pair.b);
@@ -218,7 +219,7 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
       for_maps = {equations.order, clustered.covariance, "clustered"};
       for (std::size_t i = 0; i < pairs.size(); ++i)
         out.pairs[i].baseline_sigma_clustered_m = clustered.baseline_sigma_m[i];
-      add_half_sets(problem, state, ranges_m, out);
+      add_half_sets(problem, state, maps, out);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numeric) throw;
       out.clustered_absent = error.message();
@@ -233,8 +234,8 @@ Calibration calibrate(const Observations& observations, const std::vector<Target
     out.rig.covariance->sigma_iid = out.sigma_iid;
   }
   for (std::size_t c = 0; c < state.cameras.size(); ++c)
-    out.projection.push_back(projection_uncertainty(
-        state.cameras[c], lens_covariance(for_maps, state.cameras[c]), {.range_m = ranges_m[c]}));
+    out.projection.push_back(
+        projection_uncertainty(state.cameras[c], lens_covariance(for_maps, state.cameras[c]), maps[c]));
   out.uncertainty_seconds = seconds_since(uncertainty_start);
   return out;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calibrate/pose.h"
+#include "calibrate/valid_region.h"
 #include "core/error.h"
 #include "core/statistics.h"
 
@@ -29,14 +30,17 @@ struct MapPoint {
   std::size_t at = 0;
   Eigen::Vector2d pixel;
   Eigen::Vector3d x_cam;
+  bool in_region = true;
 };
-std::vector<MapPoint> map_points(const Camera& camera, const ProjectionMap& map) {
+std::vector<MapPoint> map_points(const Camera& camera, const ProjectionMap& map,
+                                 const std::vector<Eigen::Vector2d>& region) {
   std::vector<MapPoint> out;
   for (std::size_t k = 0; k < map.px.size(); ++k) {
     const auto columns = static_cast<std::size_t>(map.columns);
     const Eigen::Vector2d pixel(map.x_px[k % columns], map.y_px[k / columns]);
     if (const auto ray = unproject(camera, pixel))
-      out.push_back({k, pixel, (map.range_m > 0 ? map.range_m : 1) * *ray});
+      out.push_back({k, pixel, (map.range_m > 0 ? map.range_m : 1) * *ray,
+                     region.empty() || inside_hull(region, pixel)});
   }
   return out;
 }
@@ -80,18 +84,18 @@ Eigen::MatrixXd lens_covariance(const Rig::Covariance& covariance, const Camera&
   return out;
 }
 
-// dq = L db + P m with the motion m(db) = -(P'P)^-1 P'L db summed over the image.
+// dq = L db + P m with the motion m(db) = -(P'P)^-1 P'L db summed over the region.
 ProjectionMap projection_uncertainty(const Camera& camera, const Eigen::MatrixXd& covariance,
                                      const MapOptions& options) {
   ProjectionMap out = empty_map(camera, options);
   const Camera eye = at_origin(camera);
-  const std::vector<MapPoint> points = map_points(eye, out);
+  const std::vector<MapPoint> points = map_points(eye, out, options.region);
   const Eigen::Index motion = options.range_m > 0 ? 6 : 3, n = covariance.rows();
   Eigen::MatrixXd pp = Eigen::MatrixXd::Zero(motion, motion), pl = Eigen::MatrixXd::Zero(motion, n);
   std::vector<std::optional<Projection>> at;
   for (const MapPoint& point : points) {
     at.push_back(project_with_derivatives(eye, point.x_cam));
-    if (!at.back()) continue;
+    if (!at.back() || !point.in_region) continue;
     const Rows p = by_motion(*at.back(), options.range_m);
     pp.noalias() += p.transpose() * p;
     pl.noalias() += p.transpose() * at.back()->by_parameters;
@@ -110,7 +114,7 @@ ProjectionMap projection_uncertainty(const Camera& camera, const Eigen::MatrixXd
 
 ProjectionMap projection_difference(const Camera& camera, const Camera& other, const MapOptions& options) {
   ProjectionMap out = empty_map(camera, options);
-  const std::vector<MapPoint> points = map_points(at_origin(camera), out);
+  const std::vector<MapPoint> points = map_points(at_origin(camera), out, options.region);
   Camera moved = at_origin(other);
   const Eigen::Index motion = options.range_m > 0 ? 6 : 3;
   constexpr int steps = 20;
@@ -120,7 +124,7 @@ ProjectionMap projection_difference(const Camera& camera, const Camera& other, c
     Eigen::VectorXd pr = Eigen::VectorXd::Zero(motion);
     for (const MapPoint& point : points) {
       const auto at = project_with_derivatives(moved, point.x_cam);
-      if (!at) continue;
+      if (!at || !point.in_region) continue;
       const Eigen::Vector2d r = point.pixel - at->pixel;
       const double weight = 1 / (1 + r.squaredNorm() / (robust_px * robust_px));
       const Rows p = by_motion(*at, options.range_m);

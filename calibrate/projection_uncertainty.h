@@ -1,7 +1,8 @@
 // How sure the projection of a camera is, pixel by pixel, at a given range; and how far two calibrations of
 // one camera differ. A lens and the place of its camera trade against each other, so both are told after the
-// small rigid motion of the camera that makes the change least over the image has been taken off (the idea of
-// mrcal's projection uncertainty; here the motion is fitted in closed form).
+// small rigid motion of the camera that makes the change least has been taken off (the idea of mrcal's
+// projection uncertainty; here the motion is fitted in closed form): least over a region, where corners were
+// seen, since beyond it the lens is an extrapolation.
 #pragma once
 #include <optional>
 #include <vector>
@@ -23,6 +24,7 @@ struct ProjectionMap {
 struct MapOptions {
   double range_m = 1;
   int columns = 32, rows = 24;
+  std::vector<Eigen::Vector2d> region = {};  // convex (valid_region.h); empty: the whole image
 };
 // From the covariance of the lens parameters (in the order of Camera::parameters; those not estimated have
 // zeros).

@@ -51,6 +51,21 @@ TEST(ProjectionDifference, TheMiddleDecides) {
   EXPECT_LT(map.quantile(0.25), 0.4);
 }
 
+// The same lenses compared over the region where they agree: there the difference is what it is.
+TEST(ProjectionDifference, CountsTheRegionAlone) {
+  Camera camera = synthetic_calibration({}).truth.cameras[0], other = camera;
+  camera.parameters.resize(9), other.parameters.resize(9);
+  other.parameters[8] += 0.2;
+  const double cx = camera.parameters[2], cy = camera.parameters[3], r = 120;
+  const ProjectionMap map = projection_difference(
+      camera, other,
+      {.range_m = 0.5, .region = {{cx - r, cy - r}, {cx - r, cy + r}, {cx + r, cy + r}, {cx + r, cy - r}}});
+  const auto at = [&](std::size_t column, std::size_t row) { return map.px[row * 32 + column]; };
+  EXPECT_LT(at(16, 12), 0.01);  // within the region 107 px (170/535)^7 = 0.03 px at most
+  EXPECT_LT(at(12, 9), 0.02);
+  EXPECT_GT(at(0, 0), 5);
+}
+
 // Lenses drawn from the covariance differ from their mean by what the map says: the squared difference over
 // the variance, averaged over draws and pixels. A Gaussian ellipse has E|d|^2 = s1^2 + s2^2, between one and
 // two times the larger variance.

@@ -84,7 +84,7 @@ export function projectionSigma(r: Calibrate, s: Section): void {
   imageMaps(
     r, s, "sigma", maps,
     `How sure projections are, pixel by pixel: one standard deviation along the worse direction of points at ${ranges(maps)} from the camera, from the covariance of the lens. ` +
-      "A lens and the place of its camera trade against each other: the small motion of the camera that explains most of the change is taken off first.",
+      "A lens and the place of its camera trade against each other: the small motion of the camera that explains most of the change inside the dashed line is taken off first.",
   ); // prettier-ignore
 }
 
